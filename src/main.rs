@@ -1,0 +1,3 @@
+//! The one binary: with no arguments the explorer, else the command line.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Direction to chart and back.

@@ -1,0 +1,1 @@
+//! Camera, objects and what the pointer hits.
