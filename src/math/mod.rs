@@ -1,1 +1,16 @@
 //! Numbers: the number trait, stable angles, units in the last place, dual numbers, input points.
+
+mod arctan;
+mod dual;
+pub mod inputs;
+mod real;
+pub mod ulp;
+mod vec3;
+
+pub use arctan::{
+    ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS, atan_unit,
+    sin_cos_turns,
+};
+pub use dual::Dual;
+pub use real::{Real, Textbook};
+pub use vec3::{Vec3, angle_rad};
