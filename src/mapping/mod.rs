@@ -1,1 +1,68 @@
-//! Direction to chart and back.
+//! Direction to chart and back: one file a mapping, and the registry.
+//!
+//! # Frames
+//!
+//! The world frame is left-handed: +x right, +y up, +z forward (into the screen). It is the frame in which cube maps have
+//! always been defined, so a face seen from inside is not mirrored. A direction points from the centre outwards and may
+//! have any finite length but zero.
+//!
+//! A mapping sends a direction to a chart and to (u, v) in [0, 1]^2 there: u grows to the right, v *downwards*, and texel
+//! (i, j) of a W x H chart has its centre at ((i + 0.5)/W, (j + 0.5)/H), row 0 at the top of the file.
+
+#[macro_use]
+mod registry;
+mod chart;
+mod convention;
+pub mod cube_face;
+mod evaluator;
+mod jacobian;
+mod layout;
+
+pub use chart::{ChartPoint, Claims, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot};
+pub use convention::{Convention, Erratum, ForwardFn, InverseFn};
+pub use evaluator::{Cpu, Evaluator, EvaluatorError, EvaluatorInfo, SHARED_EVALUATORS};
+pub use jacobian::Jacobian;
+pub use layout::Layout;
+
+use crate::math::{Real, Vec3};
+
+// The only list of mappings in the project. Tests, panels, shaders, the command line and the tables all expand it.
+registry! {
+    Latlong in latlong,
+    Sphere in sphere,
+    Matcap in matcap,
+    Paraboloid in paraboloid,
+    Cube in cube,
+    Ccm in ccm,
+    Eac in eac,
+    Octahedral in octahedral,
+    OctahedralEqualArea in octahedral_equal_area,
+    Angular in angular,
+    CylindricalEqualArea in cylindrical_equal_area,
+}
+
+impl MappingId {
+    /// The mapping with this id.
+    pub fn from_id(id: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|m| m.info().id == id)
+    }
+}
+
+impl std::fmt::Display for MappingId {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.info().id)
+    }
+}
+
+impl std::str::FromStr for MappingId {
+    type Err = UnknownMapping;
+
+    fn from_str(id: &str) -> Result<Self, Self::Err> {
+        Self::from_id(id).ok_or_else(|| UnknownMapping(id.to_owned()))
+    }
+}
+
+/// No mapping has this id.
+#[derive(Debug, thiserror::Error)]
+#[error("no mapping is called `{0}`; `sixfold maps` lists them")]
+pub struct UnknownMapping(String);

@@ -17,8 +17,13 @@ pub const ATAN_COEFFICIENTS: [f32; 8] = [
 ];
 
 /// Coefficients of sin(f pi/2) = f (c0 + c1 f^2 + ...), |f| <= 1/2.
-pub const SIN_QUARTER_COEFFICIENTS: [f32; 5] =
-    [1.570_796_3, -0.645_964_1, 0.079_692_63, -0.004_681_754, 0.000_160_441_2];
+pub const SIN_QUARTER_COEFFICIENTS: [f32; 5] = [
+    1.570_796_3,
+    -0.645_964_1,
+    0.079_692_63,
+    -0.004_681_754,
+    0.000_160_441_2,
+];
 
 /// Coefficients of cos(f pi/2) = 1 + f^2 (c0 + c1 f^2 + ...), |f| <= 1/2.
 pub const COS_QUARTER_COEFFICIENTS: [f32; 4] =

@@ -20,19 +20,24 @@ pub struct Dual<R, const N: usize> {
 impl<R: Real, const N: usize> Dual<R, N> {
     /// A constant: all derivatives are zero.
     pub fn constant(value: R) -> Self {
-        Self { value, derivative: [R::zero(); N] }
+        Self {
+            value,
+            derivative: [R::zero(); N],
+        }
     }
 
     /// The independent variable number `index` (below N) at `value`.
     pub fn variable(value: R, index: usize) -> Self {
-        let derivative =
-            std::array::from_fn(|i| if i == index { R::one() } else { R::zero() });
+        let derivative = std::array::from_fn(|i| if i == index { R::one() } else { R::zero() });
         Self { value, derivative }
     }
 
     /// f(self) given f's value and slope there.
     fn chain(self, value: R, slope: R) -> Self {
-        Self { value, derivative: self.derivative.map(|d| d * slope) }
+        Self {
+            value,
+            derivative: self.derivative.map(|d| d * slope),
+        }
     }
 
     /// Both operands' derivatives, combined.
@@ -68,13 +73,20 @@ impl<R: Real, const N: usize> Sub for Dual<R, N> {
     }
 }
 
+#[expect(clippy::suspicious_arithmetic_impl, reason = "the product rule adds")]
 impl<R: Real, const N: usize> Mul for Dual<R, N> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        self.combine(other, self.value * other.value, |a, b| a * other.value + self.value * b)
+        self.combine(other, self.value * other.value, |a, b| {
+            a * other.value + self.value * b
+        })
     }
 }
 
+#[expect(
+    clippy::suspicious_arithmetic_impl,
+    reason = "the quotient rule subtracts"
+)]
 impl<R: Real, const N: usize> Div for Dual<R, N> {
     type Output = Self;
     fn div(self, other: Self) -> Self {
@@ -110,7 +122,10 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
     fn sin_cos_turns(self) -> (Self, Self) {
         let (sin, cos) = self.value.sin_cos_turns();
         let rad_per_turn = R::from_f64(std::f64::consts::TAU);
-        (self.chain(sin, cos * rad_per_turn), self.chain(cos, -sin * rad_per_turn))
+        (
+            self.chain(sin, cos * rad_per_turn),
+            self.chain(cos, -sin * rad_per_turn),
+        )
     }
     fn is_finite(self) -> bool {
         self.value.is_finite()

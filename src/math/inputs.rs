@@ -29,7 +29,7 @@ impl Random {
 
     /// An integer in [0, below).
     pub fn below(&mut self, below: u32) -> u32 {
-        ((self.bits() >> 32) * u64::from(below) >> 32) as u32
+        (((self.bits() >> 32) * u64::from(below)) >> 32) as u32
     }
 
     /// A unit direction, even over the sphere, rounded to f32.
@@ -45,7 +45,11 @@ impl Random {
     pub fn adversarial(&mut self) -> [f32; 3] {
         loop {
             let pattern = SIGN_PATTERNS[self.below(SIGN_PATTERNS.len() as u32) as usize];
-            let length = if self.below(2) == 0 { 1.0 } else { 0.5 + self.unit() as f32 };
+            let length = if self.below(2) == 0 {
+                1.0
+            } else {
+                0.5 + self.unit() as f32
+            };
             let far = self.below(2) == 0;
             let dir = pattern.map(|sign| {
                 let base = f32::from(sign) * length;
@@ -71,7 +75,11 @@ const fn sign_patterns() -> [[i8; 3]; 26] {
     let mut count = 0;
     let mut code = 0;
     while code < 27 {
-        let pattern = [(code % 3) as i8 - 1, (code / 3 % 3) as i8 - 1, (code / 9) as i8 - 1];
+        let pattern = [
+            (code % 3) as i8 - 1,
+            (code / 3 % 3) as i8 - 1,
+            (code / 9) as i8 - 1,
+        ];
         if code != 13 {
             patterns[count] = pattern;
             count += 1;

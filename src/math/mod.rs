@@ -8,8 +8,7 @@ pub mod ulp;
 mod vec3;
 
 pub use arctan::{
-    ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS, atan_unit,
-    sin_cos_turns,
+    ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS, atan_unit, sin_cos_turns,
 };
 pub use dual::Dual;
 pub use real::{Real, Textbook};

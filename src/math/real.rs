@@ -75,7 +75,11 @@ pub trait Real:
     }
     /// +1 for zero and above, -1 below: the sign with sgn 0 = +1 that octahedral folding needs.
     fn sign_or_one(self) -> Self {
-        if self < Self::zero() { -Self::one() } else { Self::one() }
+        if self < Self::zero() {
+            -Self::one()
+        } else {
+            Self::one()
+        }
     }
     /// sqrt(self^2 + other^2) without overflow, underflow or cancellation.
     fn hypot(self, other: Self) -> Self {

@@ -5,7 +5,10 @@ pub fn ulp_distance(a: f32, b: f32) -> u32 {
     if a.is_nan() || b.is_nan() {
         return u32::MAX;
     }
-    grid_index(a).abs_diff(grid_index(b)).try_into().unwrap_or(u32::MAX)
+    grid_index(a)
+        .abs_diff(grid_index(b))
+        .try_into()
+        .unwrap_or(u32::MAX)
 }
 
 /// The float `steps` grid steps above (or below) `x`; stops at the infinities. NaN stays NaN.
@@ -27,7 +30,11 @@ pub fn ulp_f32(x: f32) -> f32 {
 /// Position of a float on the grid of all floats; 0 for both zeros.
 fn grid_index(x: f32) -> i64 {
     let magnitude = i64::from(x.abs().to_bits());
-    if x.is_sign_negative() { -magnitude } else { magnitude }
+    if x.is_sign_negative() {
+        -magnitude
+    } else {
+        magnitude
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,31 @@
+// Sphere map: twin of src/mapping/sphere.rs.
+
+fn sphere_forward(dir: vec3f) -> ChartPoint {
+    if !is_direction(dir) {
+        return no_chart();
+    }
+    let d = scaled_direction(dir);
+    let offset = sphere_disc_offset(d);
+    return chart_point(0u, 0.5 + offset.x, 0.5 - offset.y);
+}
+
+// (x, y)/m. Ahead, n - z would cancel: it is rho^2/(n + z), and m is divided by rho.
+fn sphere_disc_offset(d: vec3f) -> vec2f {
+    let n = length_of(d);
+    if d.z <= 0.0 {
+        return d.xy / (2.0 * sqrt(d.x * d.x + d.y * d.y + (n - d.z) * (n - d.z)));
+    }
+    let rho = hypotenuse(d.x, d.y);
+    if rho <= 0.0 {
+        return vec2f(0.5, 0.0);
+    }
+    let slope = rho / (n + d.z);
+    return (d.xy / rho) / (2.0 * sqrt(1.0 + slope * slope));
+}
+
+// Beyond the rim: the rim's own direction.
+fn sphere_inverse(p: ChartPoint) -> vec3f {
+    let normal = vec2f(2.0 * p.u - 1.0, 1.0 - 2.0 * p.v);
+    let w = sqrt(max(1.0 - (normal.x * normal.x + normal.y * normal.y), 0.0));
+    return vec3f(2.0 * w * normal, 1.0 - 2.0 * w * w);
+}

@@ -1,0 +1,117 @@
+// Numbers: twin of src/math. The constants in capitals are written in front of this file by src/gpu/shader.rs.
+//
+// No built-in inverse trigonometric function is called: the language allows them 4096 ULP. There is no test for NaN or
+// infinity either, because an implementation may assume that neither occurs; such a vector is refused by its size.
+
+struct ChartPoint {
+    chart: u32,
+    u: f32,
+    v: f32,
+}
+
+fn chart_point(chart: u32, u: f32, v: f32) -> ChartPoint {
+    return ChartPoint(chart, clamp(u, 0.0, 1.0), clamp(v, 0.0, 1.0));
+}
+
+fn no_chart() -> ChartPoint {
+    return ChartPoint(NO_CHART, 0.0, 0.0);
+}
+
+fn max_abs(v: vec3f) -> f32 {
+    return max(max(abs(v.x), abs(v.y)), abs(v.z));
+}
+
+// True for a vector that is neither zero nor beyond the normal numbers.
+fn is_direction(dir: vec3f) -> bool {
+    let largest = max_abs(dir);
+    return largest >= SMALLEST_NORMAL && largest <= LARGEST_FINITE;
+}
+
+// The same direction at a size at which squares neither overflow nor underflow. One step of 2^66 is enough in both
+// directions: 2^128 becomes 2^62, and 2^-126 becomes 2^-60.
+fn scaled_direction(dir: vec3f) -> vec3f {
+    let largest = max_abs(dir);
+    if largest > 0x1p60f {
+        return dir * 0x1p-66f;
+    }
+    if largest < 0x1p-60f {
+        return dir * 0x1p66f;
+    }
+    return dir;
+}
+
+fn length_of(v: vec3f) -> f32 {
+    return sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
+fn unit(v: vec3f) -> vec3f {
+    return v / length_of(v);
+}
+
+fn sign_or_one(x: f32) -> f32 {
+    return select(1.0, -1.0, x < 0.0);
+}
+
+fn hypotenuse(a: f32, b: f32) -> f32 {
+    let large = max(abs(a), abs(b));
+    if large <= 0.0 {
+        return 0.0;
+    }
+    let ratio = min(abs(a), abs(b)) / large;
+    return large * sqrt(1.0 + ratio * ratio);
+}
+
+// Arctangent of t in radians, |t| <= 1.
+fn atan_unit(t: f32) -> f32 {
+    let s = t * t;
+    var sum = 0.0;
+    for (var i = ATAN_COUNT; i > 0; i--) {
+        sum = sum * s + ATAN_COEFFICIENTS[i - 1];
+    }
+    return t + t * s * sum;
+}
+
+// Angle of the point (x, y) in radians, in [-pi, pi]; 0 at the origin.
+fn angle_of(y: f32, x: f32) -> f32 {
+    let ay = abs(y);
+    let ax = abs(x);
+    let large = max(ax, ay);
+    if large <= 0.0 {
+        return 0.0;
+    }
+    var angle = atan_unit(min(min(ax, ay) / large, 1.0));
+    if ay > ax {
+        angle = FRAC_PI_2 - angle;
+    }
+    if x < 0.0 {
+        angle = PI - angle;
+    }
+    return select(angle, -angle, y < 0.0);
+}
+
+// (sin, cos) of an angle in turns, |turns| <= 2.
+fn sin_cos_turns(turns: f32) -> vec2f {
+    let quarters = round(turns * 4.0);
+    let f = turns * 4.0 - quarters;
+    let s = f * f;
+    var sin_sum = 0.0;
+    for (var i = SIN_QUARTER_COUNT; i > 0; i--) {
+        sin_sum = sin_sum * s + SIN_QUARTER_COEFFICIENTS[i - 1];
+    }
+    var cos_sum = 0.0;
+    for (var i = COS_QUARTER_COUNT; i > 0; i--) {
+        cos_sum = cos_sum * s + COS_QUARTER_COEFFICIENTS[i - 1];
+    }
+    let angle = vec2f(f * sin_sum, 1.0 + s * cos_sum);
+    switch i32(quarters) & 3 {
+        case 1: { return vec2f(angle.y, -angle.x); }
+        case 2: { return -angle; }
+        case 3: { return vec2f(-angle.y, angle.x); }
+        default: { return angle; }
+    }
+}
+
+fn tan_turns(turns: f32) -> f32 {
+    let angle = sin_cos_turns(turns);
+    return angle.x / angle.y;
+}

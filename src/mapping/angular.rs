@@ -1,0 +1,92 @@
+//! Angular map (Debevec's light probe): the distance from the centre is the angle from +z.
+//!
+//! Azimuthal equidistant: centre +z, the whole rim -z.
+
+use super::{ChartPoint, Claims, Coverage, Domain, Layout, Mapping, MappingInfo, Step};
+use crate::math::{Real, Vec3};
+use std::f64::consts::FRAC_1_PI;
+
+/// See the [module](self).
+pub struct Angular;
+
+impl Mapping for Angular {
+    const INFO: MappingInfo = MappingInfo {
+        id: "angular",
+        name: "Angular map",
+        about: "Angle from the centre as radius: the light probes' picture.",
+        source: "azimuthal equidistant; Debevec's light probe",
+        charts: &["disc"],
+        aspect: 1.0,
+        domain: Domain::Disc,
+        coverage: Coverage::SphereLessPoint([0.0, 0.0, -1.0]),
+        layout: Layout::Single,
+        claims: Claims {
+            equal_area: false,
+            conformal: false,
+            continuous: true,
+        },
+        weak_spots: &[],
+        conventions: &[],
+        errata: &[],
+        evaluators: &[],
+    };
+
+    fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
+        let d = dir.scaled_direction()?;
+        let across = d.x.hypot(d.y);
+        // The angle from both of its legs: acos(z/n) would lose half the digits at the centre and at the rim.
+        let rho = across.atan2(d.z) * R::from_f64(0.5 * FRAC_1_PI);
+        let (x, y) = if across > R::zero() {
+            (d.x / across, d.y / across)
+        } else {
+            (R::one(), R::zero())
+        };
+        Some(ChartPoint::new(0, R::half() + rho * x, R::half() - rho * y).clamped())
+    }
+
+    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+        if !point.is_on(1) || !Domain::Disc.contains(point.u, point.v) {
+            return None;
+        }
+        let (x, y) = (point.u - R::half(), R::half() - point.v);
+        let rho = x.hypot(y);
+        if rho <= R::zero() {
+            return Some(Vec3::new(R::zero(), R::zero(), R::one()));
+        }
+        let (sin, cos) = rho.sin_cos_turns();
+        Some(Vec3::new(sin * (x / rho), sin * (y / rho), cos))
+    }
+
+    fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
+        let (Some(d), Some(point)) = (dir.scaled_direction(), Self::forward(dir)) else {
+            return Vec::new();
+        };
+        let Vec3 { x, y, z } = d;
+        let across = x.hypot(y);
+        let angle = across.atan2(z);
+        let rho = angle * R::from_f64(0.5 * FRAC_1_PI);
+        vec![
+            Step::new(
+                "across",
+                "q = √(x² + y²)",
+                format!("√({x}² + {y}²) = {across}"),
+            ),
+            Step::new(
+                "angle",
+                "θ = atan2(q, z)",
+                format!("atan2({across}, {z}) = {angle} rad"),
+            ),
+            Step::new("radius", "ρ = θ/(2π)", format!("{angle}/(2π) = {rho}")),
+            Step::new(
+                "u",
+                "u = 1/2 + ρ x/q",
+                format!("1/2 + {rho} · {x}/{across} = {}", point.u),
+            ),
+            Step::new(
+                "v",
+                "v = 1/2 − ρ y/q",
+                format!("1/2 − {rho} · {y}/{across} = {}", point.v),
+            ),
+        ]
+    }
+}

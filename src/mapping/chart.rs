@@ -1,0 +1,235 @@
+//! Where a direction lands: charts, their coordinates and what is said about a mapping.
+
+use serde::{Deserialize, Serialize};
+
+use super::convention::{Convention, Erratum};
+use super::evaluator::EvaluatorInfo;
+use super::layout::Layout;
+use crate::math::{Real, Vec3};
+
+/// A point on one chart of a mapping.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChartPoint<R> {
+    /// Index of the chart, from 0.
+    pub chart: u32,
+    /// To the right, in [0, 1].
+    pub u: R,
+    /// Downwards, in [0, 1].
+    pub v: R,
+}
+
+impl<R: Real> ChartPoint<R> {
+    /// The point (u, v) of a chart.
+    pub const fn new(chart: u32, u: R, v: R) -> Self {
+        Self { chart, u, v }
+    }
+
+    /// The same point with both coordinates clamped to [0, 1].
+    pub fn clamped(self) -> Self {
+        Self {
+            u: self.u.clamp_unit(),
+            v: self.v.clamp_unit(),
+            ..self
+        }
+    }
+
+    /// The point's coordinates as f64.
+    pub fn to_f64(self) -> ChartPoint<f64> {
+        ChartPoint::new(self.chart, self.u.to_f64(), self.v.to_f64())
+    }
+
+    /// True when the point lies on a chart of a mapping with `charts` charts: both coordinates in [0, 1].
+    pub fn is_on(self, charts: u32) -> bool {
+        let unit = |c: R| c >= R::zero() && c <= R::one();
+        self.chart < charts && unit(self.u) && unit(self.v)
+    }
+}
+
+/// One mapping: everything around a point, stored in flat charts.
+///
+/// Both functions are written once for every number type. Dual numbers make them yield their exact Jacobian.
+pub trait Mapping {
+    /// What the mapping is called, covers and claims.
+    const INFO: MappingInfo;
+
+    /// The chart point of a direction of any length. `None` for zero, NaN and infinite vectors only; a direction without a
+    /// unique image (see [`Coverage`]) gets one of its images.
+    fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>>;
+
+    /// The unit direction of a chart point. `None` off the chart: an index too large, a coordinate outside [0, 1] or not a
+    /// number, or a point outside the disc of a disc mapping.
+    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>>;
+
+    /// The formula step by step with the numbers of `dir` put in; empty for a vector that is no direction.
+    fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step>;
+}
+
+/// One line of a mapping's formula.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Step {
+    /// What is computed.
+    pub name: &'static str,
+    /// The formula in letters.
+    pub formula: &'static str,
+    /// The formula with the numbers put in, and its value.
+    pub with_numbers: String,
+}
+
+impl Step {
+    /// A step whose numbers are already written out.
+    pub fn new(name: &'static str, formula: &'static str, with_numbers: String) -> Self {
+        Self {
+            name,
+            formula,
+            with_numbers,
+        }
+    }
+}
+
+/// What a mapping is called, covers and claims.
+#[derive(Debug)]
+pub struct MappingInfo {
+    /// Name on the command line and in files.
+    pub id: &'static str,
+    /// Name for people.
+    pub name: &'static str,
+    /// One sentence on what it is.
+    pub about: &'static str,
+    /// Where it was published.
+    pub source: &'static str,
+    /// Name of each chart, in order.
+    pub charts: &'static [&'static str],
+    /// Width of a chart over its height at which texels are square where the mapping is least distorted.
+    pub aspect: f64,
+    /// Which part of each chart holds directions.
+    pub domain: Domain,
+    /// Which directions have an image.
+    pub coverage: Coverage,
+    /// How the charts are unfolded into one picture.
+    pub layout: Layout,
+    /// What the mapping promises; laws hold it to that.
+    pub claims: Claims,
+    /// Where f32 cannot resolve directions, however they are computed.
+    pub weak_spots: &'static [WeakSpot],
+    /// The other numbers that the literature gives for the same map.
+    pub conventions: &'static [Convention],
+    /// Where the literature prints it wrongly.
+    pub errata: &'static [Erratum],
+    /// Ways to compute it beyond the shared ones.
+    pub evaluators: &'static [EvaluatorInfo],
+}
+
+impl MappingInfo {
+    /// Number of charts.
+    pub const fn chart_count(&self) -> u32 {
+        self.charts.len() as u32
+    }
+
+    /// The named convention.
+    pub fn convention(&self, id: &str) -> Option<&'static Convention> {
+        self.conventions.iter().find(|c| c.id == id)
+    }
+}
+
+/// Which part of each chart holds directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Domain {
+    /// All of it.
+    Square,
+    /// The largest disc that fits: pi/4 = 78.5 % of the texels.
+    Disc,
+}
+
+impl Domain {
+    /// True when (u, v) in [0, 1]^2 lies in the domain. The disc's edge gets four ULP of slack, because a rim point's
+    /// rounded coordinates may lie just outside.
+    pub fn contains<R: Real>(self, u: R, v: R) -> bool {
+        match self {
+            Self::Square => true,
+            Self::Disc => {
+                let (p, q) = (R::two() * u - R::one(), R::two() * v - R::one());
+                p * p + q * q <= R::from_f64(1.0 + 4.0 * R::EPSILON)
+            }
+        }
+    }
+}
+
+/// Which directions have an image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coverage {
+    /// Every direction.
+    Sphere,
+    /// Every direction but this one, whose image is the whole rim; forward picks the rim's rightmost point.
+    SphereLessPoint([f64; 3]),
+    /// The directions whose product with this one is not negative; the others share their texels.
+    Hemisphere([f64; 3]),
+}
+
+impl Coverage {
+    /// One word for tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sphere => "sphere",
+            Self::SphereLessPoint(_) => "sphere less one point",
+            Self::Hemisphere(_) => "hemisphere",
+        }
+    }
+
+    /// Solid angle covered, in sr.
+    pub fn solid_angle_sr(self) -> f64 {
+        match self {
+            Self::Sphere | Self::SphereLessPoint(_) => 4.0 * std::f64::consts::PI,
+            Self::Hemisphere(_) => 2.0 * std::f64::consts::PI,
+        }
+    }
+
+    /// True when `dir` has an image of its own.
+    pub fn contains(self, dir: [f64; 3]) -> bool {
+        let along = |axis: [f64; 3]| axis[0] * dir[0] + axis[1] * dir[1] + axis[2] * dir[2];
+        match self {
+            Self::Sphere => true,
+            Self::SphereLessPoint(point) => crate::math::angle_rad(point, dir) > 0.0,
+            Self::Hemisphere(axis) => along(axis) >= 0.0,
+        }
+    }
+}
+
+/// What a mapping promises.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Claims {
+    /// Equal solid angle for equal area of the chart.
+    pub equal_area: bool,
+    /// Angles are kept: Tissot's indicatrix is a circle everywhere.
+    pub conformal: bool,
+    /// Each seam is divided alike from both sides, so that the coordinate along it agrees.
+    pub continuous: bool,
+}
+
+/// A direction around which the map is so flat that f32 coordinates cannot tell directions apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WeakSpot {
+    /// Centre of the zone; with `great_circle` the pole of the circle.
+    pub dir: [f64; 3],
+    /// The zone surrounds the great circle whose pole is `dir` instead of `dir` itself.
+    pub great_circle: bool,
+    /// Radius of the zone in radians.
+    pub radius_rad: f64,
+    /// Largest round-trip error that f32 keeps outside of the zone, in radians.
+    pub outside_rad: f64,
+    /// Why.
+    pub reason: &'static str,
+}
+
+impl WeakSpot {
+    /// True when the direction lies in the zone.
+    pub fn contains(&self, dir: [f64; 3]) -> bool {
+        let angle = crate::math::angle_rad(self.dir, dir);
+        let distance = if self.great_circle {
+            (angle - std::f64::consts::FRAC_PI_2).abs()
+        } else {
+            angle
+        };
+        distance < self.radius_rad
+    }
+}

@@ -1,0 +1,77 @@
+//! Cube map: six pictures taken with a square field of view of 90 degrees, the gnomonic plane as it is.
+
+use super::cube_face::{self, from_gnomonic, gnomonic, largest_component, signed};
+use super::{ChartPoint, Convention, Mapping, MappingInfo, Step};
+use crate::math::{Real, Vec3};
+
+/// See the [module](self).
+pub struct Cube;
+
+impl Mapping for Cube {
+    const INFO: MappingInfo = MappingInfo {
+        id: "cube",
+        name: "Cube map",
+        about: "Six flat pictures: one division, hardware everywhere, 5.2 times the solid angle at a face's centre as at its corner.",
+        source: "Greene 1986; the table of OpenGL, D3D, Vulkan and WebGPU",
+        charts: cube_face::FACES,
+        aspect: 1.0,
+        domain: cube_face::DOMAIN,
+        coverage: cube_face::COVERAGE,
+        layout: cube_face::LAYOUT,
+        claims: cube_face::CLAIMS,
+        weak_spots: &[],
+        conventions: &[Convention {
+            id: "lower-left",
+            about: "the encyclopaedia article: the same vectors, rows counted from below, v' = 1 - v",
+            columns: ["chart", "u", "v"],
+            forward: (lower_left, lower_left),
+            inverse: Some((lower_left_inverse, lower_left_inverse)),
+        }],
+        errata: &[],
+        evaluators: &[],
+    };
+
+    fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
+        let (face, a, b) = gnomonic(dir, largest_component)?;
+        let place = |c: R| (c + R::one()) * R::half();
+        Some(ChartPoint::new(face, place(a), place(b)).clamped())
+    }
+
+    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+        let (a, b) = signed(point)?;
+        Some(from_gnomonic(point.chart, a, b))
+    }
+
+    fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
+        let Some(point) = Self::forward(dir) else {
+            return Vec::new();
+        };
+        let mut steps = cube_face::steps(dir, largest_component, "z before y before x on ties");
+        if let Some((_, a, b)) = gnomonic(dir, largest_component) {
+            steps.push(Step::new(
+                "u",
+                "u = (a + 1)/2",
+                format!("({a} + 1)/2 = {}", point.u),
+            ));
+            steps.push(Step::new(
+                "v",
+                "v = (b + 1)/2",
+                format!("({b} + 1)/2 = {}", point.v),
+            ));
+        }
+        steps
+    }
+}
+
+fn lower_left<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
+    let (face, a, b) = gnomonic(dir, largest_component)?;
+    let place = |c: R| (c + R::one()) * R::half();
+    Some(ChartPoint::new(face, place(a), place(-b)).clamped())
+}
+
+fn lower_left_inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+    Cube::inverse(ChartPoint {
+        v: R::one() - point.v,
+        ..point
+    })
+}

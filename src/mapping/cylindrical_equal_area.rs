@@ -1,0 +1,96 @@
+//! Cylindrical equal-area (Lambert): longitude to the right, height downwards. 4 pi sr per unit of chart area.
+
+use super::{ChartPoint, Claims, Coverage, Domain, Layout, Mapping, MappingInfo, Step, WeakSpot};
+use crate::math::{Real, Vec3};
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// See the [module](self).
+pub struct CylindricalEqualArea;
+
+impl Mapping for CylindricalEqualArea {
+    const INFO: MappingInfo = MappingInfo {
+        id: "cylindrical-equal-area",
+        name: "Cylindrical equal-area",
+        about: "The sphere's shadow on a cylinder around it: every texel the same solid angle, poles squeezed flat.",
+        source: "Lambert 1772",
+        charts: &["all"],
+        aspect: PI,
+        domain: Domain::Square,
+        coverage: Coverage::Sphere,
+        layout: Layout::Single,
+        claims: Claims {
+            equal_area: true,
+            conformal: false,
+            continuous: true,
+        },
+        weak_spots: &[WeakSpot {
+            dir: [0.0, -1.0, 0.0],
+            great_circle: false,
+            radius_rad: 0.2,
+            outside_rad: 1.5e-6,
+            reason: "v is flat at the poles, and near v = 1 the last digit of v is worth up to 5e-4 rad",
+        }],
+        conventions: &[],
+        errata: &[],
+        evaluators: &[],
+    };
+
+    fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
+        let d = dir.scaled_direction()?;
+        let u = R::half() + d.x.atan2(d.z) * R::from_f64(0.5 * FRAC_1_PI);
+        let n = d.length();
+        let v = if d.y > R::zero() {
+            // n - y cancels near the pole; it equals (x^2 + z^2)/(n + y).
+            let across = d.x.hypot(d.z);
+            R::half() * (across / n) * (across / (n + d.y))
+        } else {
+            R::half() * (R::one() - d.y / n)
+        };
+        Some(ChartPoint::new(0, u, v).clamped())
+    }
+
+    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+        if !point.is_on(1) {
+            return None;
+        }
+        let (sin, cos) = (point.u - R::half()).sin_cos_turns();
+        // 1 - y^2 = 4 v (1 - v), which cancels at neither pole.
+        let across = R::two() * (point.v * (R::one() - point.v)).sqrt();
+        Some(Vec3::new(
+            across * sin,
+            R::one() - R::two() * point.v,
+            across * cos,
+        ))
+    }
+
+    fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
+        let (Some(d), Some(point)) = (dir.scaled_direction(), Self::forward(dir)) else {
+            return Vec::new();
+        };
+        let Vec3 { x, y, z } = d;
+        let longitude = x.atan2(z);
+        let n = d.length();
+        vec![
+            Step::new(
+                "longitude",
+                "λ = atan2(x, z)",
+                format!("atan2({x}, {z}) = {longitude} rad"),
+            ),
+            Step::new(
+                "length",
+                "n = √(x² + y² + z²)",
+                format!("√({x}² + {y}² + {z}²) = {n}"),
+            ),
+            Step::new(
+                "u",
+                "u = 1/2 + λ/(2π)",
+                format!("1/2 + {longitude}/(2π) = {}", point.u),
+            ),
+            Step::new(
+                "v",
+                "v = (1 − y/n)/2",
+                format!("(1 − {y}/{n})/2 = {}", point.v),
+            ),
+        ]
+    }
+}

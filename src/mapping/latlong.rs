@@ -1,0 +1,137 @@
+//! Latlong (equirectangular): longitude to the right, colatitude downwards. The first seed's "spherical mapping".
+//!
+//! The centre of the picture looks along +z, +x lies to the right, +y is up. Grimm and Niebruegge, equations 1 to 4.
+
+use super::{
+    ChartPoint, Claims, Convention, Coverage, Domain, Erratum, Layout, Mapping, MappingInfo, Step,
+};
+use crate::math::{Real, Vec3};
+use std::f64::consts::FRAC_1_PI;
+
+/// See the [module](self).
+pub struct Latlong;
+
+impl Mapping for Latlong {
+    const INFO: MappingInfo = MappingInfo {
+        id: "latlong",
+        name: "Latlong",
+        about: "Longitude and latitude as a picture: simple, but the poles are stretched over a whole row.",
+        source: "equirectangular; Grimm and Niebruegge, eq. 1-4",
+        charts: &["all"],
+        aspect: 2.0,
+        domain: Domain::Square,
+        coverage: Coverage::Sphere,
+        layout: Layout::Single,
+        claims: Claims {
+            equal_area: false,
+            conformal: false,
+            continuous: true,
+        },
+        weak_spots: &[],
+        conventions: &[Convention {
+            id: "grimm",
+            about: "z up, longitude from +x: u = frac(theta/2pi), v = phi/pi with theta = atan2(Ry, Rx), phi = acos(Rz/|R|)",
+            columns: ["chart", "u", "v"],
+            forward: (grimm, grimm),
+            inverse: Some((grimm_inverse, grimm_inverse)),
+        }],
+        errata: &[
+            Erratum {
+                id: "Eq. 1 and 3",
+                printed: "u = arctan(Ry/Rx)/(2π)",
+                right: "u = frac(atan2(Ry, Rx)/(2π))",
+                why: "the quotient loses the quadrant: R and the direction half a turn away get the same u",
+                values: |dir| {
+                    let dir = dir.scaled_direction()?;
+                    Some(((dir.y / dir.x).atan() * 0.5 * FRAC_1_PI, grimm(dir)?.u))
+                },
+            },
+            Erratum {
+                id: "Eq. 4",
+                printed: "v = 0.5 + φ/π",
+                right: "v = φ/π",
+                why: "φ is measured from the pole, so it already runs over [0, π]; printed, v runs over [0.5, 1.5]",
+                values: |dir| grimm(dir).map(|p| (0.5 + p.v, p.v)),
+            },
+        ],
+        evaluators: &[],
+    };
+
+    fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
+        let d = dir.scaled_direction()?;
+        let u = R::half() + d.x.atan2(d.z) * R::from_f64(0.5 * FRAC_1_PI);
+        // The colatitude from both of its legs: acos(y/n) would lose half the digits at the poles.
+        let v = d.x.hypot(d.z).atan2(d.y) * R::from_f64(FRAC_1_PI);
+        Some(ChartPoint::new(0, u, v).clamped())
+    }
+
+    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+        if !point.is_on(1) {
+            return None;
+        }
+        let (sin_longitude, cos_longitude) = (point.u - R::half()).sin_cos_turns();
+        let (sin_colatitude, cos_colatitude) = (point.v * R::half()).sin_cos_turns();
+        Some(Vec3::new(
+            sin_colatitude * sin_longitude,
+            cos_colatitude,
+            sin_colatitude * cos_longitude,
+        ))
+    }
+
+    fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
+        let (Some(d), Some(p)) = (dir.scaled_direction(), Self::forward(dir)) else {
+            return Vec::new();
+        };
+        let Vec3 { x, y, z } = d;
+        let longitude = x.atan2(z);
+        let radius = x.hypot(z);
+        let colatitude = radius.atan2(y);
+        vec![
+            Step::new(
+                "longitude",
+                "λ = atan2(x, z)",
+                format!("atan2({x}, {z}) = {longitude} rad"),
+            ),
+            Step::new(
+                "radius",
+                "ρ = √(x² + z²)",
+                format!("√({x}² + {z}²) = {radius}"),
+            ),
+            Step::new(
+                "colatitude",
+                "θ = atan2(ρ, y)",
+                format!("atan2({radius}, {y}) = {colatitude} rad"),
+            ),
+            Step::new(
+                "u",
+                "u = 1/2 + λ/(2π)",
+                format!("1/2 + {longitude}/(2π) = {}", p.u),
+            ),
+            Step::new("v", "v = θ/π", format!("{colatitude}/π = {}", p.v)),
+        ]
+    }
+}
+
+/// The first seed's numbers: its axes have z up.
+fn grimm<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
+    let d = dir.scaled_direction()?;
+    let turns = d.y.atan2(d.x) * R::from_f64(0.5 * FRAC_1_PI);
+    let u = if turns < R::zero() {
+        turns + R::one()
+    } else {
+        turns
+    };
+    // A tiny negative angle rounds up to a whole turn, which is turn 0.
+    let u = if u < R::one() { u } else { R::zero() };
+    let v = d.x.hypot(d.y).atan2(d.z) * R::from_f64(FRAC_1_PI);
+    Some(ChartPoint::new(0, u, v).clamped())
+}
+
+fn grimm_inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+    if !point.is_on(1) {
+        return None;
+    }
+    let (sin_theta, cos_theta) = point.u.sin_cos_turns();
+    let (sin_phi, cos_phi) = (point.v * R::half()).sin_cos_turns();
+    Some(Vec3::new(sin_phi * cos_theta, sin_phi * sin_theta, cos_phi))
+}

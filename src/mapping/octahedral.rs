@@ -1,0 +1,99 @@
+//! Octahedral: the world on the eight faces of an octahedron, unfolded into one square.
+//!
+//! The centre of the square is +y, the four corners are -y, the edges' middles +-x and +-z.
+
+use super::{ChartPoint, Claims, Coverage, Domain, Layout, Mapping, MappingInfo, Step};
+use crate::math::{Real, Vec3};
+
+/// See the [module](self).
+pub struct Octahedral;
+
+impl Mapping for Octahedral {
+    const INFO: MappingInfo = MappingInfo {
+        id: "octahedral",
+        name: "Octahedral",
+        about: "One square without a trigonometric function: the lower half is folded out into the corners.",
+        source: "Engelhardt and Dachsbacher 2008",
+        charts: &["square"],
+        aspect: 1.0,
+        domain: Domain::Square,
+        coverage: Coverage::Sphere,
+        layout: Layout::Single,
+        claims: Claims {
+            equal_area: false,
+            conformal: false,
+            continuous: true,
+        },
+        weak_spots: &[],
+        conventions: &[],
+        errata: &[],
+        evaluators: &[],
+    };
+
+    fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
+        let d = dir.scaled_direction()?;
+        let sum = d.x.abs() + d.y.abs() + d.z.abs();
+        let (x, z) = (d.x / sum, d.z / sum);
+        let (x, z) = if d.y < R::zero() { fold(x, z) } else { (x, z) };
+        let place = |c: R| (c + R::one()) * R::half();
+        Some(ChartPoint::new(0, place(x), place(z)).clamped())
+    }
+
+    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+        if !point.is_on(1) {
+            return None;
+        }
+        let signed = |c: R| R::two() * c - R::one();
+        let (x, z) = (signed(point.u), signed(point.v));
+        let y = R::one() - x.abs() - z.abs();
+        let (x, z) = if y < R::zero() { fold(x, z) } else { (x, z) };
+        Some(Vec3::new(x, y, z).normalized())
+    }
+
+    fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
+        let (Some(d), Some(point)) = (dir.scaled_direction(), Self::forward(dir)) else {
+            return Vec::new();
+        };
+        let Vec3 { x, y, z } = d;
+        let sum = x.abs() + y.abs() + z.abs();
+        let (ox, oz) = (x / sum, z / sum);
+        let mut steps = vec![
+            Step::new(
+                "sum",
+                "s = |x| + |y| + |z|",
+                format!("|{x}| + |{y}| + |{z}| = {sum}"),
+            ),
+            Step::new("on the octahedron", "(x, z)/s", format!("({ox}, {oz})")),
+        ];
+        let (ox, oz) = if y < R::zero() {
+            let folded = fold(ox, oz);
+            steps.push(Step::new(
+                "fold (y < 0)",
+                "((1 − |oz|) sgn ox, (1 − |ox|) sgn oz)",
+                format!("({}, {})", folded.0, folded.1),
+            ));
+            folded
+        } else {
+            (ox, oz)
+        };
+        steps.push(Step::new(
+            "u",
+            "u = (ox + 1)/2",
+            format!("({ox} + 1)/2 = {}", point.u),
+        ));
+        steps.push(Step::new(
+            "v",
+            "v = (oz + 1)/2",
+            format!("({oz} + 1)/2 = {}", point.v),
+        ));
+        steps
+    }
+}
+
+/// Folds a point of the square over the diamond's edge; its own inverse.
+pub(super) fn fold<R: Real>(x: R, z: R) -> (R, R) {
+    (
+        (R::one() - z.abs()) * x.sign_or_one(),
+        (R::one() - x.abs()) * z.sign_or_one(),
+    )
+}

@@ -1,0 +1,142 @@
+//! Equal-area octahedral (Clarberg 2008; the environment map of pbrt-v4), turned as [`octahedral`](super::octahedral).
+//!
+//! Each octant's triangle is mapped with equal area: 4 pi sr per unit of chart area everywhere.
+
+use super::octahedral::fold;
+use super::{ChartPoint, Claims, Coverage, Domain, Layout, Mapping, MappingInfo, Step};
+use crate::math::{Real, Vec3};
+use std::f64::consts::FRAC_1_PI;
+
+/// See the [module](self).
+pub struct OctahedralEqualArea;
+
+impl Mapping for OctahedralEqualArea {
+    const INFO: MappingInfo = MappingInfo {
+        id: "octahedral-equal-area",
+        name: "Equal-area octahedral",
+        about: "The octahedral square with the same solid angle in every texel.",
+        source: "Clarberg 2008; pbrt-v4",
+        charts: &["square"],
+        aspect: 1.0,
+        domain: Domain::Square,
+        coverage: Coverage::Sphere,
+        layout: Layout::Single,
+        claims: Claims {
+            equal_area: true,
+            conformal: false,
+            continuous: true,
+        },
+        weak_spots: &[],
+        conventions: &[],
+        errata: &[],
+        evaluators: &[],
+    };
+
+    fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
+        let d = dir.scaled_direction()?;
+        let (radius, share) = polar(d);
+        let along_z = radius * share;
+        let (x, z) = (copy_sign(radius - along_z, d.x), copy_sign(along_z, d.z));
+        let (x, z) = if d.y < R::zero() {
+            fold_signed(x, z, d)
+        } else {
+            (x, z)
+        };
+        let place = |c: R| (c + R::one()) * R::half();
+        Some(ChartPoint::new(0, place(x), place(z)).clamped())
+    }
+
+    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+        if !point.is_on(1) {
+            return None;
+        }
+        let signed = |c: R| R::two() * c - R::one();
+        let (mut x, mut z) = (signed(point.u), signed(point.v));
+        let height = R::one() - x.abs() - z.abs();
+        let below = height < R::zero();
+        if below {
+            (x, z) = fold(x, z);
+        }
+        // After the fold both halves look alike: the octant, its radius and the share of the quarter turn.
+        let radius = x.abs() + z.abs();
+        let share = if radius > R::zero() {
+            z.abs() / radius
+        } else {
+            R::zero()
+        };
+        let (sin, cos) = (share * R::from_f64(0.25)).sin_cos_turns();
+        // sin(colatitude) = r sqrt(2 - r^2), cos(colatitude) = 1 - r^2.
+        let across = radius * (R::two() - radius * radius).max(R::zero()).sqrt();
+        let up = (R::one() - radius) * (R::one() + radius);
+        Some(Vec3::new(
+            copy_sign(across * cos, x),
+            if below { -up } else { up },
+            copy_sign(across * sin, z),
+        ))
+    }
+
+    fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
+        let (Some(d), Some(point)) = (dir.scaled_direction(), Self::forward(dir)) else {
+            return Vec::new();
+        };
+        let Vec3 { x, y, z } = d;
+        let n = d.length();
+        let (radius, share) = polar(d);
+        let mut steps = vec![
+            Step::new(
+                "length",
+                "n = √(x² + y² + z²)",
+                format!("√({x}² + {y}² + {z}²) = {n}"),
+            ),
+            Step::new(
+                "radius",
+                "r = √((x² + z²)/(n(n + |y|)))",
+                format!("√(({x}² + {z}²)/({n}({n} + |{y}|))) = {radius}"),
+            ),
+            Step::new(
+                "share",
+                "t = (2/π) atan2(|z|, |x|)",
+                format!("(2/π) atan2(|{z}|, |{x}|) = {share}"),
+            ),
+        ];
+        if y < R::zero() {
+            steps.push(Step::new(
+                "fold (y < 0)",
+                "over the diamond's edge",
+                "(ox, oz) → ((1 − |oz|) sgn x, (1 − |ox|) sgn z)".to_owned(),
+            ));
+        }
+        steps.push(Step::new(
+            "u",
+            "u = (r(1 − t) sgn x + 1)/2, or folded",
+            format!("{}", point.u),
+        ));
+        steps.push(Step::new(
+            "v",
+            "v = (r t sgn z + 1)/2, or folded",
+            format!("{}", point.v),
+        ));
+        steps
+    }
+}
+
+/// Radius sqrt(1 - |y|/n) in [0, 1], computed without the difference, and the share of a quarter turn from |x| to |z|.
+fn polar<R: Real>(d: Vec3<R>) -> (R, R) {
+    let n = d.length();
+    let radius = d.x.hypot(d.z) / (n * (n + d.y.abs())).sqrt();
+    let share = d.z.abs().atan2(d.x.abs()) * R::from_f64(2.0 * FRAC_1_PI);
+    (radius.min(R::one()), share)
+}
+
+/// `magnitude` with the sign of `sign`, where zero counts as positive.
+fn copy_sign<R: Real>(magnitude: R, sign: R) -> R {
+    magnitude.abs() * sign.sign_or_one()
+}
+
+/// [`fold`] with the signs of the direction itself: a coordinate that rounds to zero must not change sides.
+fn fold_signed<R: Real>(x: R, z: R, d: Vec3<R>) -> (R, R) {
+    (
+        copy_sign(R::one() - z.abs(), d.x),
+        copy_sign(R::one() - x.abs(), d.z),
+    )
+}

@@ -1,0 +1,103 @@
+//! Dual paraboloid (Heidrich and Seidel): two mirrors back to back, each a stereographic picture of half the world.
+//!
+//! Chart 0 looks along +z, chart 1 along -z; both are what an observer inside sees. Exactly conformal, area ratio 4.
+
+use super::{ChartPoint, Claims, Coverage, Domain, Layout, Mapping, MappingInfo, Step};
+use crate::math::{Real, Vec3};
+
+/// See the [module](self).
+pub struct Paraboloid;
+
+impl Mapping for Paraboloid {
+    const INFO: MappingInfo = MappingInfo {
+        id: "paraboloid",
+        name: "Dual paraboloid",
+        about: "Two discs, one for each half of the world: circles stay circles, only products and one quotient.",
+        source: "Heidrich and Seidel 1998",
+        charts: &["front", "back"],
+        aspect: 1.0,
+        domain: Domain::Disc,
+        coverage: Coverage::Sphere,
+        layout: Layout::Pair,
+        claims: Claims {
+            equal_area: false,
+            conformal: true,
+            continuous: true,
+        },
+        weak_spots: &[],
+        conventions: &[],
+        errata: &[],
+        evaluators: &[],
+    };
+
+    fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
+        let d = dir.scaled_direction()?;
+        let back = d.z < R::zero();
+        let twice = R::two() * (d.length() + d.z.abs());
+        let x = if back { -d.x } else { d.x };
+        let (u, v) = (R::half() + x / twice, R::half() - d.y / twice);
+        Some(ChartPoint::new(u32::from(back), u, v).clamped())
+    }
+
+    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+        if !point.is_on(2) || !Domain::Disc.contains(point.u, point.v) {
+            return None;
+        }
+        let p = R::two() * point.u - R::one();
+        let q = R::one() - R::two() * point.v;
+        // The paraboloid's normal is (p, q, 1) and the direction the axis reflected there.
+        let square = p * p + q * q;
+        let scale = R::one() / (R::one() + square);
+        let (x, y, z) = (
+            R::two() * p * scale,
+            R::two() * q * scale,
+            (R::one() - square) * scale,
+        );
+        Some(if point.chart == 0 {
+            Vec3::new(x, y, z)
+        } else {
+            Vec3::new(-x, y, -z)
+        })
+    }
+
+    fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
+        let (Some(d), Some(point)) = (dir.scaled_direction(), Self::forward(dir)) else {
+            return Vec::new();
+        };
+        let Vec3 { x, y, z } = d;
+        let n = d.length();
+        let front = point.chart == 0;
+        let (chart, sign) = if front {
+            ("z ≥ 0: front", "+")
+        } else {
+            ("z < 0: back", "−")
+        };
+        let size = z.abs();
+        vec![
+            Step::new(
+                "length",
+                "n = √(x² + y² + z²)",
+                format!("√({x}² + {y}² + {z}²) = {n}"),
+            ),
+            Step::new("chart", "front where z ≥ 0, else back", chart.to_owned()),
+            Step::new(
+                "u",
+                if front {
+                    "u = 1/2 + x/(2(n + z))"
+                } else {
+                    "u = 1/2 − x/(2(n − z))"
+                },
+                format!("1/2 {sign} {x}/(2({n} + {size})) = {}", point.u),
+            ),
+            Step::new(
+                "v",
+                if front {
+                    "v = 1/2 − y/(2(n + z))"
+                } else {
+                    "v = 1/2 − y/(2(n − z))"
+                },
+                format!("1/2 − {y}/(2({n} + {size})) = {}", point.v),
+            ),
+        ]
+    }
+}

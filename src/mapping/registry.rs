@@ -1,0 +1,70 @@
+//! The machinery behind the one list of mappings.
+
+/// Declares the mappings in teaching order: `Type in module,`. The module's Rust and WGSL files bear the same name.
+macro_rules! registry {
+    ($($mapping:ident in $module:ident,)+) => {
+        $(pub mod $module;)+
+
+        /// Every mapping, in teaching order.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum MappingId {
+            $(#[doc = concat!("See [`", stringify!($module), "`].")] $mapping,)+
+        }
+
+        impl MappingId {
+            /// Every mapping, in teaching order.
+            pub const ALL: &'static [Self] = &[$(Self::$mapping,)+];
+
+            /// What the mapping is called, covers and claims.
+            pub fn info(self) -> &'static MappingInfo {
+                match self { $(Self::$mapping => &<$module::$mapping as Mapping>::INFO,)+ }
+            }
+
+            /// Prefix of the mapping's shader functions: the name of its files.
+            pub fn prefix(self) -> &'static str {
+                match self { $(Self::$mapping => stringify!($module),)+ }
+            }
+
+            /// The mapping's shader source.
+            pub fn wgsl(self) -> &'static str {
+                match self {
+                    $(Self::$mapping => include_str!(concat!(
+                        env!("CARGO_MANIFEST_DIR"), "/shaders/mapping/", stringify!($module), ".wgsl"
+                    )),)+
+                }
+            }
+
+            /// See [`Mapping::forward`].
+            pub fn forward<R: Real>(self, dir: Vec3<R>) -> Option<ChartPoint<R>> {
+                match self { $(Self::$mapping => $module::$mapping::forward(dir),)+ }
+            }
+
+            /// See [`Mapping::inverse`].
+            pub fn inverse<R: Real>(self, point: ChartPoint<R>) -> Option<Vec3<R>> {
+                match self { $(Self::$mapping => $module::$mapping::inverse(point),)+ }
+            }
+
+            /// See [`Mapping::steps`].
+            pub fn steps<R: Real + std::fmt::Display>(self, dir: Vec3<R>) -> Vec<Step> {
+                match self { $(Self::$mapping => $module::$mapping::steps(dir),)+ }
+            }
+
+            /// [`Mapping::forward`] of a slice, with one dispatch; stops at the shorter of the two.
+            pub fn forward_slice<R: Real>(self, dirs: &[Vec3<R>], out: &mut [Option<ChartPoint<R>>]) {
+                match self {
+                    $(Self::$mapping => out.iter_mut().zip(dirs)
+                        .for_each(|(o, d)| *o = $module::$mapping::forward(*d)),)+
+                }
+            }
+
+            /// [`Mapping::inverse`] of a slice, with one dispatch; stops at the shorter of the two.
+            pub fn inverse_slice<R: Real>(self, points: &[ChartPoint<R>], out: &mut [Option<Vec3<R>>]) {
+                match self {
+                    $(Self::$mapping => out.iter_mut().zip(points)
+                        .for_each(|(o, p)| *o = $module::$mapping::inverse(*p)),)+
+                }
+            }
+        }
+    };
+}

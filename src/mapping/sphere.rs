@@ -1,0 +1,120 @@
+//! Sphere map (OpenGL's, Hoff's derivation): what a small mirror ball shows to a viewer far away on -z.
+//!
+//! The centre of the chart is the direction back to the viewer, -z; the whole rim is +z, the one direction that has no
+//! unique image. The map is exactly equal-area (16 sr per unit of chart area); it fails by shape, at the rim.
+
+use super::{
+    ChartPoint, Claims, Convention, Coverage, Domain, Layout, Mapping, MappingInfo, Step, WeakSpot,
+};
+use crate::math::{Real, Vec3};
+
+/// See the [module](self).
+pub struct Sphere;
+
+impl Mapping for Sphere {
+    const INFO: MappingInfo = MappingInfo {
+        id: "sphere",
+        name: "Sphere map",
+        about: "A mirror ball seen from far away: one picture, equal area, torn apart at its rim.",
+        source: "OpenGL sphere map; Hoff 1998",
+        charts: &["ball"],
+        aspect: 1.0,
+        domain: Domain::Disc,
+        coverage: Coverage::SphereLessPoint([0.0, 0.0, 1.0]),
+        layout: Layout::Single,
+        claims: Claims {
+            equal_area: true,
+            conformal: false,
+            continuous: true,
+        },
+        weak_spots: &[WeakSpot {
+            dir: [0.0, 0.0, 1.0],
+            great_circle: false,
+            radius_rad: 0.01,
+            outside_rad: 1e-4,
+            reason: "around the rim direction u and v hardly move, so their last digit is worth up to 7e-4 rad",
+        }],
+        conventions: &[Convention {
+            id: "hoff",
+            about: "right-handed eye space, r_z towards the viewer, t upwards: s = rx/m + 1/2, t = ry/m + 1/2",
+            columns: ["chart", "s", "t"],
+            forward: (hoff, hoff),
+            inverse: Some((hoff_inverse, hoff_inverse)),
+        }],
+        errata: &[],
+        evaluators: &[],
+    };
+
+    fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
+        let d = dir.scaled_direction()?;
+        let (x, y) = disc_offset(d);
+        Some(ChartPoint::new(0, R::half() + x, R::half() - y).clamped())
+    }
+
+    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+        if !point.is_on(1) || !Domain::Disc.contains(point.u, point.v) {
+            return None;
+        }
+        // (p, q, -w) is the ball's normal; the direction is the view reflected there.
+        let p = R::two() * point.u - R::one();
+        let q = R::one() - R::two() * point.v;
+        let w = (R::one() - (p * p + q * q)).max(R::zero()).sqrt();
+        let twice = R::two() * w;
+        Some(Vec3::new(twice * p, twice * q, R::one() - twice * w))
+    }
+
+    fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
+        let (Some(d), Some(point)) = (dir.scaled_direction(), Self::forward(dir)) else {
+            return Vec::new();
+        };
+        let Vec3 { x, y, z } = d;
+        let n = d.length();
+        let half = n - z;
+        let m = R::two() * (x * x + y * y + half * half).sqrt();
+        vec![
+            Step::new(
+                "length",
+                "n = √(x² + y² + z²)",
+                format!("√({x}² + {y}² + {z}²) = {n}"),
+            ),
+            Step::new(
+                "m",
+                "m = 2√(x² + y² + (n − z)²)",
+                format!("2√({x}² + {y}² + ({n} − {z})²) = {m}"),
+            ),
+            Step::new("u", "u = 1/2 + x/m", format!("1/2 + {x}/{m} = {}", point.u)),
+            Step::new("v", "v = 1/2 − y/m", format!("1/2 − {y}/{m} = {}", point.v)),
+        ]
+    }
+}
+
+/// (x, y)/m of a scaled direction: the point on the ball, at most 1/2 from the centre.
+fn disc_offset<R: Real>(d: Vec3<R>) -> (R, R) {
+    let n = d.length();
+    if d.z <= R::zero() {
+        let m = R::two() * (d.x * d.x + d.y * d.y + (n - d.z) * (n - d.z)).sqrt();
+        return (d.x / m, d.y / m);
+    }
+    // Ahead, n - z cancels; it equals rho^2/(n + z), and dividing m by rho leaves nothing that can vanish.
+    let rho = d.x.hypot(d.y);
+    if rho <= R::zero() {
+        return (R::half(), R::zero());
+    }
+    let slope = rho / (n + d.z);
+    let m_over_rho = R::two() * (R::one() + slope * slope).sqrt();
+    ((d.x / rho) / m_over_rho, (d.y / rho) / m_over_rho)
+}
+
+/// Hoff's numbers: the same point with t counted upwards.
+fn hoff<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
+    let d = dir.scaled_direction()?;
+    let (x, y) = disc_offset(d);
+    Some(ChartPoint::new(0, R::half() + x, R::half() + y).clamped())
+}
+
+fn hoff_inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+    Sphere::inverse(ChartPoint {
+        v: R::one() - point.v,
+        ..point
+    })
+}
