@@ -1,1 +1,15 @@
 //! Camera, objects and what the pointer hits.
+//!
+//! One world frame for all: left-handed, +x right, +y up, +z forward. Every object fits in the unit ball around the
+//! origin; the camera circles it. Nothing here knows of the GPU or of the window.
+
+pub mod camera;
+pub mod mesh;
+pub mod object;
+pub mod pick;
+mod teapot;
+
+pub use camera::{Camera, Ray, RayFrame};
+pub use mesh::Mesh;
+pub use object::Object;
+pub use pick::{Hit, Target};
