@@ -209,7 +209,7 @@ fn every_mapping_is_one_rust_file_one_shader_and_one_line() {
     let rust = files_below(&in_package("src/mapping"), ".rs");
     let wgsl = files_below(&in_package("shaders/mapping"), ".wgsl");
     let wgsl: Vec<String> = wgsl.into_iter().map(|(name, _)| name).collect();
-    let registry = fs::read_to_string(in_package("src/mapping/registry.rs")).unwrap();
+    let registry = fs::read_to_string(in_package("src/mapping/mod.rs")).unwrap();
     let missing = unmatched_mappings(&rust, &wgsl, &registry);
     assert!(!wgsl.is_empty(), "no mapping was found");
     assert!(missing.is_empty(), "{}", missing.join("\n"));
