@@ -102,7 +102,7 @@ fn sin_cos_turns(turns: f32) -> vec2f {
     for (var i = COS_QUARTER_COUNT; i > 0; i--) {
         cos_sum = cos_sum * s + COS_QUARTER_COEFFICIENTS[i - 1];
     }
-    let angle = vec2f(f * sin_sum, 1.0 + s * cos_sum);
+    let angle = vec2f(f + f * sin_sum, 1.0 + s * cos_sum);
     switch i32(quarters) & 3 {
         case 1: { return vec2f(angle.y, -angle.x); }
         case 2: { return -angle; }
