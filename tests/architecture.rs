@@ -1,8 +1,8 @@
 //! The house rules that no compiler checks: which layer may use which, and that a mapping is one Rust file, one WGSL
 //! file and one registry line. Every check takes text, so that each has a sample here that it must report.
 
-use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// A layer and those that it may use. `main.rs` puts `app` and `cli` together; `lib.rs` lists them.
 const LAYERS: [(&str, &[&str]); 9] = [
@@ -164,29 +164,29 @@ fn unmatched_mappings(rust: &[(String, String)], wgsl: &[String], registry: &str
     missing
 }
 
-/// (path below `folder`, text) of every file with this ending, however deep.
-fn files_below(folder: &Path, ending: &str) -> Vec<(String, String)> {
+/// (path below `folder` without the ending, text) of every file with this ending, however deep.
+fn files_below(folder: &Path, ending: &str) -> io::Result<Vec<(String, String)>> {
     let mut found = Vec::new();
-    for entry in fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())) {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-        if path.is_dir() {
-            let below = files_below(&path, ending).into_iter();
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if entry.path().is_dir() {
+            let below = files_below(&entry.path(), ending)?.into_iter();
             found.extend(below.map(|(rest, text)| (format!("{name}/{rest}"), text)));
         } else if let Some(stem) = name.strip_suffix(ending) {
-            found.push((stem.to_owned(), fs::read_to_string(&path).unwrap()));
+            found.push((stem.to_owned(), fs::read_to_string(entry.path())?));
         }
     }
-    found
+    Ok(found)
 }
 
-fn in_package(folder: &str) -> std::path::PathBuf {
+fn in_package(folder: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)
 }
 
 #[test]
 fn every_layer_uses_only_what_lies_below_it() {
-    let files = files_below(&in_package("src"), ".rs");
+    let files = files_below(&in_package("src"), ".rs").unwrap();
     let mut checked = 0;
     let mut broken = Vec::new();
     for (path, text) in &files {
@@ -206,8 +206,8 @@ fn every_layer_uses_only_what_lies_below_it() {
 
 #[test]
 fn every_mapping_is_one_rust_file_one_shader_and_one_line() {
-    let rust = files_below(&in_package("src/mapping"), ".rs");
-    let wgsl = files_below(&in_package("shaders/mapping"), ".wgsl");
+    let rust = files_below(&in_package("src/mapping"), ".rs").unwrap();
+    let wgsl = files_below(&in_package("shaders/mapping"), ".wgsl").unwrap();
     let wgsl: Vec<String> = wgsl.into_iter().map(|(name, _)| name).collect();
     let registry = fs::read_to_string(in_package("src/mapping/mod.rs")).unwrap();
     let missing = unmatched_mappings(&rust, &wgsl, &registry);
