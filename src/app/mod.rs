@@ -1,1 +1,33 @@
-//! The window.
+//! The window: state, actions, panels, jobs, and pictures without a window.
+//!
+//! [`state::AppState`] is plain data. Panels see it through [`model::Model`] and push [`command::Command`]s; only
+//! [`action::apply`] changes it. [`explorer::Explorer`] holds the renderer and the jobs; [`run`] puts it behind a window,
+//! [`picture`] behind a texture.
+
+pub mod action;
+mod bars;
+pub mod command;
+mod controls;
+mod dialogs;
+pub mod explorer;
+pub mod files;
+mod frame;
+pub mod history;
+mod inspector;
+mod job;
+mod keys;
+mod map_panel;
+mod marks;
+pub mod model;
+pub mod panel_view;
+pub mod panes;
+pub mod picture;
+pub mod probe;
+pub mod state;
+mod texel_color;
+pub mod theme;
+mod viewport;
+pub mod views;
+mod window;
+
+pub use window::{RunError, run};

@@ -178,3 +178,15 @@ pub fn steps<R: Real + std::fmt::Display>(
         Step::new("b", "b = tc/ma", format!("{tc}/{ma} = {b}")),
     ]
 }
+
+/// The faces that meet at a direction, in the order in which the sign table prefers them; one unless it is a tie.
+pub fn meeting_faces<R: Real>(dir: Vec3<R>) -> Vec<u32> {
+    let largest = dir.max_abs();
+    let Vec3 { x, y, z } = dir;
+    let signed = |c: R, plus: u32| (c.abs() == largest).then(|| plus + u32::from(c < R::zero()));
+    let negative_y = signed(y, 2).filter(|f| *f == 3);
+    let negative_z = signed(z, 4).filter(|f| *f == 5);
+    let positive_y = signed(y, 2).filter(|f| *f == 2);
+    let positive_z = signed(z, 4).filter(|f| *f == 4);
+    [negative_y, negative_z, signed(x, 0), positive_z, positive_y].into_iter().flatten().collect()
+}

@@ -1,0 +1,211 @@
+//! Everything that can happen to the state, and what it does. Panels see the state and push actions; nothing else writes.
+
+use crate::gpu::ToneCurve;
+use crate::imaging::Environment;
+use crate::mapping::{ChartPoint, MappingId};
+use crate::math::Vec3;
+use crate::scene::{Camera, Object};
+
+use super::probe;
+use super::state::{AppState, InspectorState, Overlays, PanelState, unit};
+
+/// One change of the state.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Show other surroundings.
+    SetEnvironment(Environment),
+    /// Look up another mapping; the inspector follows.
+    SetMapping(MappingId),
+    /// Put a second mapping right of the divider, or take it away.
+    SetCompare(Option<MappingId>),
+    /// Move the divider.
+    SetDivider(f32),
+    /// Another mirror object.
+    SetObject(Object),
+    /// Turn the camera by these angles in radians.
+    Orbit {
+        /// To the right.
+        dx_rad: f32,
+        /// Upwards.
+        dy_rad: f32,
+    },
+    /// Divide the eye's distance by a factor.
+    Zoom(f32),
+    /// Back to the first view.
+    ResetCamera,
+    /// Exposure in stops.
+    SetExposure(f32),
+    /// Another tone curve.
+    SetTone(ToneCurve),
+    /// Texels of each map.
+    SetTexelBudget(u32),
+    /// Switch overlays.
+    SetOverlays(Overlays),
+    /// Study another direction; `eye_ray` is the place in the viewport that it was found through.
+    SetProbe {
+        /// The direction; any length.
+        dir: [f32; 3],
+        /// Place in the viewport, in [0, 1]^2.
+        eye_ray: Option<[f32; 2]>,
+    },
+    /// Move the probe by texels of the selected mapping.
+    StepProbe {
+        /// Texels to the right.
+        columns: i32,
+        /// Texels downwards.
+        rows: i32,
+    },
+    /// Let the probe follow the pointer, or keep it.
+    FollowPointer(bool),
+    /// Show or hide a panel.
+    SetPanelOpen(MappingId, bool),
+    /// Zoom and pan of a panel.
+    SetPanelView(PanelState),
+    /// What the inspector shows.
+    SetInspector(InspectorState),
+    /// The tiling library's arrangement of the panels.
+    SetArrangement(Option<serde_json::Value>),
+    /// A whole other scene.
+    Load(Box<AppState>),
+}
+
+impl Action {
+    /// Which actions one undo takes back together: a drag is many actions of one kind. `None` stands for itself.
+    pub fn merges_as(&self) -> Option<&'static str> {
+        match self {
+            Self::Orbit { .. } | Self::Zoom(_) => Some("camera"),
+            Self::SetDivider(_) => Some("divider"),
+            Self::SetExposure(_) => Some("exposure"),
+            Self::SetTexelBudget(_) => Some("texels"),
+            Self::SetProbe { .. } | Self::StepProbe { .. } => Some("probe"),
+            Self::SetPanelView(_) => Some("panel"),
+            _ => None,
+        }
+    }
+
+    /// True for what undo leaves alone: the probe's moves and the arrangement would drown everything else.
+    pub fn is_transient(&self) -> bool {
+        matches!(self, Self::SetProbe { .. } | Self::StepProbe { .. } | Self::SetArrangement(_))
+    }
+}
+
+/// Carries out an action. Every number is brought into its range.
+pub fn apply(state: &mut AppState, action: Action) {
+    match action {
+        Action::SetEnvironment(environment) => state.environment = environment,
+        Action::SetMapping(mapping) => {
+            state.mapping = mapping;
+            state.inspector.mapping = mapping;
+            if state.compare == Some(mapping) {
+                state.compare = None;
+            }
+        }
+        Action::SetCompare(compare) => state.compare = compare.filter(|m| *m != state.mapping),
+        Action::SetDivider(divider) if divider.is_finite() => {
+            state.divider = divider.clamp(0.0, 1.0);
+        }
+        Action::SetDivider(_) => {}
+        Action::SetObject(object) => state.object = object,
+        Action::Orbit { dx_rad, dy_rad } => state.camera.orbit(dx_rad, dy_rad),
+        Action::Zoom(factor) => state.camera.zoom(factor),
+        Action::ResetCamera => state.camera = AppState::default().camera,
+        Action::SetExposure(ev) => {
+            let (low, high) = super::state::EXPOSURE_RANGE;
+            state.exposure_ev = if ev.is_finite() { ev.clamp(low, high) } else { 0.0 };
+        }
+        Action::SetTone(tone) => state.tone = tone,
+        Action::SetTexelBudget(budget) => {
+            let (low, high) = super::state::TEXEL_BUDGET_RANGE;
+            state.texel_budget = budget.clamp(low, high);
+        }
+        Action::SetOverlays(overlays) => state.overlays = overlays,
+        Action::SetProbe { dir, eye_ray } => {
+            state.probe = unit(dir);
+            state.eye_ray = eye_ray;
+        }
+        Action::StepProbe { columns, rows } => {
+            let size = crate::gpu::map_size(state.mapping, state.texel_budget);
+            if let Some(dir) =
+                probe::stepped(state.mapping, size, state.probe_f64(), columns, rows)
+            {
+                state.probe = unit(dir.to_f64().map(|c| c as f32));
+                state.eye_ray = None;
+            }
+        }
+        Action::FollowPointer(follow) => state.probe_follows = follow,
+        Action::SetPanelOpen(mapping, open) => {
+            if let Some(panel) = state.panel_mut(mapping) {
+                panel.open = open;
+            }
+        }
+        Action::SetPanelView(view) => {
+            if let Some(panel) = state.panel_mut(view.mapping) {
+                *panel = view;
+            }
+        }
+        Action::SetInspector(inspector) => state.inspector = inspector,
+        Action::SetArrangement(arrangement) => state.arrangement = arrangement,
+        Action::Load(loaded) => *state = loaded.sanitized(),
+    }
+}
+
+/// The probe at a chart point of a mapping, as an action; `None` off the chart.
+pub fn probe_at(mapping: MappingId, point: ChartPoint<f64>) -> Option<Action> {
+    let Vec3 { x, y, z } = mapping.inverse(point)?;
+    Some(Action::SetProbe { dir: [x, y, z].map(|c| c as f32), eye_ray: None })
+}
+
+/// The camera's default view for a state, used by reset buttons.
+pub fn default_camera() -> Camera {
+    AppState::default().camera
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_second_mapping_is_never_the_first() {
+        let mut state = AppState::default();
+        apply(&mut state, Action::SetCompare(Some(MappingId::Eac)));
+        assert_eq!(state.compare, Some(MappingId::Eac));
+        apply(&mut state, Action::SetMapping(MappingId::Eac));
+        assert_eq!(state.compare, None);
+        apply(&mut state, Action::SetCompare(Some(MappingId::Eac)));
+        assert_eq!(state.compare, None);
+    }
+
+    #[test]
+    fn numbers_stay_in_range() {
+        let mut state = AppState::default();
+        for action in [
+            Action::SetDivider(f32::NAN),
+            Action::SetExposure(f32::INFINITY),
+            Action::SetTexelBudget(0),
+            Action::Zoom(f32::NAN),
+            Action::Orbit { dx_rad: f32::NAN, dy_rad: 9e9 },
+            Action::SetProbe { dir: [0.0; 3], eye_ray: None },
+        ] {
+            apply(&mut state, action);
+        }
+        assert_eq!(state.clone().sanitized(), state);
+    }
+
+    #[test]
+    fn four_steps_around_return_and_a_step_moves_by_one_texel() {
+        for &mapping in MappingId::ALL {
+            let mut state = AppState::default();
+            apply(&mut state, Action::SetMapping(mapping));
+            let size = crate::gpu::map_size(mapping, state.texel_budget);
+            let before = mapping.forward(state.probe_f64()).unwrap();
+            apply(&mut state, Action::StepProbe { columns: 1, rows: 0 });
+            let after = mapping.forward(state.probe_f64()).unwrap();
+            let moved = (after.u - before.u) * f64::from(size[0]);
+            assert!((moved - 1.0).abs() < 0.01, "{mapping}: moved by {moved} texels");
+            apply(&mut state, Action::StepProbe { columns: 0, rows: 1 });
+            apply(&mut state, Action::StepProbe { columns: -1, rows: -1 });
+            let back = mapping.forward(state.probe_f64()).unwrap();
+            assert!((back.u - before.u).abs() * f64::from(size[0]) < 0.01, "{mapping}");
+        }
+    }
+}

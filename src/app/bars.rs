@@ -1,0 +1,110 @@
+//! The menu bar at the top and the status bar at the bottom.
+
+use egui::{ProgressBar, RichText, Ui};
+
+use super::action::Action;
+use super::command::Command;
+use super::dialogs::{Dialog, PictureDialog};
+use super::model::Model;
+
+/// The menus. Dialogs are opened by setting `dialog`.
+pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) {
+    egui::MenuBar::new().ui(ui, |ui| {
+        ui.menu_button("File", |ui| {
+            if ui.button("Open …   Ctrl+O").clicked() {
+                *dialog = Some(Dialog::Open(String::new()));
+                ui.close();
+            }
+            if ui.button("Save the scene …   Ctrl+S").clicked() {
+                *dialog = Some(Dialog::SaveScene("scene.sixfold.json".to_owned()));
+                ui.close();
+            }
+            if ui.button("Save a picture …   Ctrl+E").clicked() {
+                *dialog = Some(Dialog::Picture(PictureDialog::default()));
+                ui.close();
+            }
+            ui.separator();
+            if ui.button("Quit   Ctrl+Q").clicked() {
+                model.push(Command::Quit);
+                ui.close();
+            }
+        });
+        ui.menu_button("Edit", |ui| {
+            let undo = egui::Button::new("Undo   Ctrl+Z");
+            if ui.add_enabled(model.history.can_undo(), undo).clicked() {
+                model.push(Command::Undo);
+                ui.close();
+            }
+            let redo = egui::Button::new("Redo   Ctrl+Shift+Z");
+            if ui.add_enabled(model.history.can_redo(), redo).clicked() {
+                model.push(Command::Redo);
+                ui.close();
+            }
+        });
+        ui.menu_button("View", |ui| {
+            let mut inspector = model.state.inspector;
+            if ui.checkbox(&mut inspector.open, "Inspector").changed() {
+                model.push(Action::SetInspector(inspector));
+            }
+            if ui.button("Reset the view   R").clicked() {
+                model.push(Action::ResetCamera);
+                ui.close();
+            }
+            if ui.button("Arrange the panels as at first").clicked() {
+                model.push(Command::ResetArrangement);
+                ui.close();
+            }
+        });
+        ui.menu_button("Help", |ui| {
+            ui.set_min_width(330.0);
+            for (keys, what) in HELP {
+                ui.horizontal(|ui| {
+                    ui.label(RichText::new(*keys).strong());
+                    ui.label(*what);
+                });
+            }
+        });
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.label(RichText::new(model.adapter).weak().small());
+        });
+    });
+}
+
+/// What pointer and keys do.
+const HELP: &[(&str, &str)] = &[
+    ("move", "over any view: the probe follows"),
+    ("click", "in any view: the probe stays there; Esc lets it follow again"),
+    ("drag", "in the viewport: turn; in a panel: move the probe"),
+    ("right drag", "in the viewport: move the probe; in a panel: pan"),
+    ("wheel", "zoom; a double click in a panel shows it whole"),
+    ("arrows", "move the probe by texels (Shift: by ten)"),
+    ("W A S D", "turn the camera"),
+    ("+ −", "move the camera nearer or farther"),
+    ("R", "reset the view"),
+];
+
+/// Jobs, the frame plan and the counters.
+pub fn status_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    super::dialogs::messages_ui(ui, model);
+    ui.horizontal(|ui| {
+        for job in model.jobs {
+            ui.label(RichText::new(&job.title).small());
+            ui.add(ProgressBar::new(job.fraction).desired_width(90.0).show_percentage());
+            if ui.small_button("Cancel").clicked() {
+                model.commands.push(Command::Cancel(job.id));
+            }
+            ui.separator();
+        }
+        ui.label(RichText::new(model.plan).small());
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.label(RichText::new(format!("frame {}", model.frames)).small().weak());
+            ui.separator();
+            let hint = if model.state.probe_follows {
+                "the probe follows the pointer; click keeps it"
+            } else {
+                "the probe is kept; Esc lets it follow"
+            };
+            ui.label(RichText::new(hint).small().weak());
+        });
+    });
+}

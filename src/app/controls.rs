@@ -1,0 +1,156 @@
+//! The controls at the left: what is looked up, in what surroundings, and what is drawn over it.
+
+use egui::{ComboBox, RichText, Slider, Ui};
+
+use super::action::Action;
+use super::command::Command;
+use super::model::Model;
+use super::state::{EXPOSURE_RANGE, TEXEL_BUDGET_RANGE};
+use crate::gpu::ToneCurve;
+use crate::imaging::Environment;
+use crate::mapping::MappingId;
+use crate::scene::Object;
+
+/// Shows the controls, scrolled where they are too many.
+pub fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        heading(ui, "Mapping");
+        mapping_ui(ui, model);
+        heading(ui, "Scene");
+        scene_ui(ui, model);
+        heading(ui, "Light");
+        light_ui(ui, model);
+        heading(ui, "Overlays");
+        overlays_ui(ui, model);
+        heading(ui, "Panels");
+        panels_ui(ui, model);
+    });
+}
+
+fn heading(ui: &mut Ui, title: &str) {
+    ui.add_space(4.0);
+    ui.label(RichText::new(title).strong());
+    ui.separator();
+}
+
+/// A labelled list to choose from.
+fn choose<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    label: &str,
+    now: &T,
+    options: impl IntoIterator<Item = T>,
+    name: impl Fn(&T) -> String,
+) -> Option<T> {
+    let mut chosen = now.clone();
+    let text = ui.label(label);
+    ComboBox::from_id_salt(label)
+        .width(ui.available_width() - 8.0)
+        .selected_text(name(now))
+        .show_ui(ui, |ui| {
+            for option in options {
+                let title = name(&option);
+                ui.selectable_value(&mut chosen, option, title);
+            }
+        })
+        .response
+        .labelled_by(text.id);
+    (chosen != *now).then_some(chosen)
+}
+
+fn mapping_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    let state = model.state;
+    let all = MappingId::ALL.iter().copied();
+    let name = |m: &MappingId| m.info().name.to_owned();
+    if let Some(mapping) = choose(ui, "looked up by object and sky", &state.mapping, all.clone(), name) {
+        model.push(Action::SetMapping(mapping));
+    }
+    let others = std::iter::once(None).chain(all.filter(|m| *m != state.mapping).map(Some));
+    let name = |m: &Option<MappingId>| m.map_or("none", |m| m.info().name).to_owned();
+    if let Some(compare) = choose(ui, "compared, right of the divider", &state.compare, others, name) {
+        model.push(Action::SetCompare(compare));
+    }
+    let mut budget = state.texel_budget as f32 / 1e6;
+    let (low, high) = TEXEL_BUDGET_RANGE;
+    let range = low as f32 / 1e6..=high as f32 / 1e6;
+    ui.label("texels of every map, in millions");
+    let slider = Slider::new(&mut budget, range).logarithmic(true).max_decimals(4);
+    // Each new budget bakes every map anew: wait until the slider is let go.
+    let response = ui.add(slider.update_while_editing(false));
+    if response.changed() && !response.dragged() || response.drag_stopped() {
+        let texels = (budget * 1e6) as u32;
+        if texels != state.texel_budget {
+            model.push(Action::SetTexelBudget(texels));
+        }
+    }
+    let [w, h] = model.map_size(state.mapping);
+    let charts = state.mapping.info().chart_count();
+    ui.label(RichText::new(format!("{charts} × {w}×{h} texels")).small());
+}
+
+fn scene_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    let state = model.state;
+    let now = &state.environment;
+    let mut options: Vec<Environment> = Environment::ALL_BUILT_IN.to_vec();
+    if let Environment::File(_) = now {
+        options.push(now.clone());
+    }
+    if let Some(environment) = choose(ui, "environment", now, options, Environment::name) {
+        model.push(Command::LoadEnvironment(environment));
+    }
+    if ui.button("Open a file …").clicked() {
+        model.push(Command::AskOpen);
+    }
+    if let Some(text) = model.surroundings.and_then(|s| s.bad_texels().summary()) {
+        ui.label(RichText::new(text).small().color(super::theme::TEXEL));
+    }
+    let object = choose(ui, "mirror object", &state.object, Object::ALL, |o| o.name().to_owned());
+    if let Some(object) = object {
+        model.push(Action::SetObject(object));
+    }
+    if ui.button("Reset the view").on_hover_text("Key: R").clicked() {
+        model.push(Action::ResetCamera);
+    }
+}
+
+fn light_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    let state = model.state;
+    let mut ev = state.exposure_ev;
+    ui.label("exposure");
+    let range = EXPOSURE_RANGE.0..=EXPOSURE_RANGE.1;
+    if ui.add(Slider::new(&mut ev, range).suffix(" EV").max_decimals(2)).changed() {
+        model.push(Action::SetExposure(ev));
+    }
+    let tone = choose(ui, "tone curve", &state.tone, ToneCurve::ALL, |t| t.name().to_owned());
+    if let Some(tone) = tone {
+        model.push(Action::SetTone(tone));
+    }
+}
+
+fn overlays_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    let mut overlays = model.state.overlays;
+    for (on, name) in [
+        (&mut overlays.great_circles, "great circles A to F"),
+        (&mut overlays.face_tint, "tint of the faces"),
+        (&mut overlays.grid, "lines of equal u and v"),
+        (&mut overlays.vectors, "incident, normal, reflected"),
+        (&mut overlays.axes, "axes"),
+        (&mut overlays.probe, "probe"),
+    ] {
+        ui.checkbox(on, name);
+    }
+    if overlays != model.state.overlays {
+        model.push(Action::SetOverlays(overlays));
+    }
+}
+
+fn panels_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    for &mapping in MappingId::ALL {
+        let mut open = model.state.panel(mapping).open;
+        if ui.checkbox(&mut open, mapping.info().name).changed() {
+            model.push(Action::SetPanelOpen(mapping, open));
+        }
+    }
+    if ui.button("Arrange as at first").clicked() {
+        model.push(Command::ResetArrangement);
+    }
+}

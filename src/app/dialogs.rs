@@ -1,0 +1,182 @@
+//! The small windows over the panels: opening, saving, pictures and messages.
+
+use std::path::PathBuf;
+
+use egui::{ComboBox, DragValue, Modal, TextEdit, Ui};
+
+use super::command::Command;
+use super::model::Model;
+use super::picture::{Destination, MAX_SIDE, PictureRequest, What};
+use crate::mapping::MappingId;
+
+/// Which dialog is open, and what was typed into it. It belongs to the window, not to the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Dialog {
+    /// A path to open.
+    Open(String),
+    /// A path to save the scene under.
+    SaveScene(String),
+    /// What picture, how large, where to.
+    Picture(PictureDialog),
+}
+
+/// The fields of the picture dialog.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureDialog {
+    /// What is drawn.
+    pub what: What,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// With the overlays that are switched on.
+    pub overlays: bool,
+    /// The file.
+    pub path: String,
+    /// Replace the file if it is there.
+    pub force: bool,
+}
+
+impl Default for PictureDialog {
+    fn default() -> Self {
+        Self {
+            what: What::Window,
+            size: [1920, 1200],
+            overlays: true,
+            path: "sixfold.png".to_owned(),
+            force: false,
+        }
+    }
+}
+
+/// Shows the open dialog; it closes itself.
+pub fn dialog_ui(ctx: &egui::Context, model: &mut Model<'_>, dialog: &mut Option<Dialog>) {
+    let Some(open) = dialog else { return };
+    let mut close = false;
+    let response = Modal::new(egui::Id::unique("dialog")).show(ctx, |ui| {
+        ui.set_width(430.0);
+        close = match open {
+            Dialog::Open(path) => open_ui(ui, model, path),
+            Dialog::SaveScene(path) => save_ui(ui, model, path),
+            Dialog::Picture(fields) => picture_ui(ui, model, fields),
+        };
+    });
+    if close || response.should_close() {
+        *dialog = None;
+    }
+}
+
+/// A line for a path and a button for the system's own dialog.
+fn path_ui(ui: &mut Ui, path: &mut String, label: &str) -> bool {
+    let mut browse = false;
+    ui.horizontal(|ui| {
+        let name = ui.label(label);
+        let width = ui.available_width() - 84.0;
+        ui.add(TextEdit::singleline(path).desired_width(width)).labelled_by(name.id);
+        browse = ui.button("Browse …").clicked();
+    });
+    browse
+}
+
+fn open_ui(ui: &mut Ui, model: &mut Model<'_>, path: &mut String) -> bool {
+    ui.heading("Open");
+    ui.label("An environment (latlong HDR, EXR, PNG or JPEG), a scene, or a picture that Sixfold saved. Dropping the file onto the window does the same.");
+    if path_ui(ui, path, "file") {
+        model.push(Command::AskOpen);
+    }
+    buttons(ui, "Open", !path.trim().is_empty(), || {
+        model.push(Command::Open(PathBuf::from(path.trim())));
+    })
+}
+
+fn save_ui(ui: &mut Ui, model: &mut Model<'_>, path: &mut String) -> bool {
+    ui.heading("Save the scene");
+    ui.label("Everything that the window shows, as a small text file; an environment's file is named, not copied.");
+    if path_ui(ui, path, "file") {
+        model.push(Command::AskSaveScene);
+    }
+    buttons(ui, "Save", !path.trim().is_empty(), || {
+        model.push(Command::SaveScene(PathBuf::from(path.trim())));
+    })
+}
+
+/// The last row: the deed and a way out; true when the dialog is done with.
+fn buttons(ui: &mut Ui, deed: &str, ready: bool, act: impl FnOnce()) -> bool {
+    ui.add_space(6.0);
+    let mut done = false;
+    ui.horizontal(|ui| {
+        if ui.add_enabled(ready, egui::Button::new(deed)).clicked() {
+            act();
+            done = true;
+        }
+        done |= ui.button("Cancel").clicked();
+    });
+    done
+}
+
+fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) -> bool {
+    ui.heading("Save a picture");
+    ui.label("Drawn anew at the size you choose. The PNG holds the scene, so Sixfold can open it again.");
+    ui.horizontal(|ui| {
+        let label = ui.label("of");
+        ComboBox::from_id_salt("picture of")
+            .selected_text(fields.what.name())
+            .show_ui(ui, |ui| {
+                let maps = MappingId::ALL.iter().map(|m| What::Panel(*m));
+                for what in [What::Window, What::Viewport].into_iter().chain(maps) {
+                    ui.selectable_value(&mut fields.what, what, what.name());
+                }
+            })
+            .response
+            .labelled_by(label.id);
+        ui.checkbox(&mut fields.overlays, "with overlays");
+    });
+    ui.horizontal(|ui| {
+        ui.label("size");
+        ui.add(DragValue::new(&mut fields.size[0]).range(1..=MAX_SIDE));
+        ui.label("×");
+        ui.add(DragValue::new(&mut fields.size[1]).range(1..=MAX_SIDE));
+        ui.label(format!("pixels, at most {MAX_SIDE} a side"));
+    });
+    if path_ui(ui, &mut fields.path, "file") {
+        model.push(Command::AskPicturePath);
+    }
+    ui.checkbox(&mut fields.force, "replace the file if it exists");
+    ui.add_space(6.0);
+    let mut done = false;
+    ui.horizontal(|ui| {
+        let request = |to| PictureRequest {
+            what: fields.what,
+            size: fields.size,
+            overlays: fields.overlays,
+            to,
+        };
+        let path = fields.path.trim();
+        if ui.add_enabled(!path.is_empty(), egui::Button::new("Save")).clicked() {
+            let to = Destination::File { path: PathBuf::from(path), force: fields.force };
+            model.push(Command::MakePicture(request(to)));
+            done = true;
+        }
+        if ui.button("Copy to the clipboard").clicked() {
+            model.push(Command::MakePicture(request(Destination::Clipboard)));
+            done = true;
+        }
+        done |= ui.button("Cancel").clicked();
+    });
+    done
+}
+
+/// The messages, each until it is dismissed.
+pub fn messages_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    for (i, message) in model.messages.iter().enumerate() {
+        ui.horizontal(|ui| {
+            if ui.small_button("Dismiss").clicked() {
+                model.commands.push(Command::Dismiss(i));
+            }
+            let color = if message.is_error {
+                egui::Color32::from_rgb(255, 150, 120)
+            } else {
+                egui::Color32::from_rgb(150, 220, 160)
+            };
+            ui.add(egui::Label::new(egui::RichText::new(&message.text).color(color)).wrap());
+        });
+    }
+}

@@ -1,0 +1,582 @@
+//! The explorer: state, renderer and jobs behind one window, or behind a picture drawn without one.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use egui::mutex::RwLock;
+use egui::{CentralPanel, Context, Panel, Ui};
+
+use super::action::{Action, apply};
+use super::command::Command;
+use super::dialogs::{Dialog, dialog_ui};
+use super::files::{self, Opened};
+use super::frame::frame_of;
+use super::history::History;
+use super::job::{Job, Outcome};
+use super::model::{JobLine, Message, Model, Surroundings};
+use super::panes::{self, Pane};
+use super::picture::{self, Destination, PictureRequest};
+use super::state::AppState;
+use super::texel_color::{TexelColor, TexelKey};
+use super::views::{ViewKey, Views};
+use super::{bars, controls, inspector, keys};
+use crate::gpu::{EnvironmentSource, Gpu, Renderer};
+use crate::imaging::{Environment, LoadError, Loaded};
+use crate::scene::{Object, Target};
+
+/// A dialog of the system that has not been answered: what it asks for, and the file when there is one.
+type Asked = (Dialog, Job<Option<PathBuf>>);
+
+/// Everything behind the window.
+pub struct Explorer {
+    state: AppState,
+    history: History,
+    gpu: Gpu,
+    renderer: Renderer,
+    views: Views,
+    tree: egui_tiles::Tree<Pane>,
+    target: (Object, Target),
+    surroundings: Option<Surroundings>,
+    loading: Option<(Environment, Job<Result<Loaded, LoadError>>)>,
+    opening: Option<Job<Result<Opened, String>>>,
+    pictures: Vec<(PictureRequest, Job<Result<picture::Picture, String>>)>,
+    asked: Option<Asked>,
+    messages: Vec<Message>,
+    dialog: Option<Dialog>,
+    maximised: Option<Pane>,
+    next_job: u64,
+    frames: u64,
+    plan: String,
+    /// Draw every map at once instead of one a frame: for pictures.
+    complete: bool,
+    /// More maps are waiting to be drawn.
+    pending: bool,
+    texel_color: TexelColor,
+    probed: Option<[f32; 3]>,
+    quit: bool,
+}
+
+impl Explorer {
+    /// An explorer on a device. `painter` is the renderer that draws egui's shapes on the same device.
+    pub fn new(gpu: Gpu, painter: Arc<RwLock<egui_wgpu::Renderer>>, state: AppState) -> Self {
+        let state = state.sanitized();
+        Self {
+            renderer: Renderer::new(gpu.clone()),
+            views: Views::new(&gpu, painter),
+            tree: panes::tree_of(&state),
+            target: (state.object, Target::new(state.object.mesh())),
+            history: History::default(),
+            surroundings: None,
+            loading: None,
+            opening: None,
+            pictures: Vec::new(),
+            asked: None,
+            messages: Vec::new(),
+            dialog: None,
+            maximised: None,
+            next_job: 1,
+            frames: 0,
+            plan: String::new(),
+            complete: false,
+            pending: false,
+            texel_color: TexelColor::default(),
+            probed: None,
+            quit: false,
+            gpu,
+            state,
+        }
+    }
+
+    /// The state that is shown.
+    pub fn state(&self) -> &AppState {
+        &self.state
+    }
+
+    /// Frames drawn so far.
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// The device is gone: nothing can be drawn any more.
+    pub fn is_lost(&self) -> bool {
+        self.gpu.is_lost()
+    }
+
+    /// The messages that are shown.
+    pub fn messages(&self) -> &[Message] {
+        &self.messages
+    }
+
+    /// True while a job runs or a map waits to be drawn.
+    pub fn is_busy(&self) -> bool {
+        self.pending
+            || self.loading.is_some()
+            || self.opening.is_some()
+            || !self.pictures.is_empty()
+    }
+
+    /// Shows surroundings that are there already, every map at once from now on: for pictures without a window.
+    pub(super) fn show_now(&mut self, surroundings: Surroundings) {
+        self.complete = true;
+        self.install(surroundings);
+    }
+
+    /// What has to happen before a frame: results of jobs, dropped files, keys.
+    pub fn logic(&mut self, ctx: &Context) {
+        if self.surroundings.is_none() && self.loading.is_none() {
+            self.load(ctx, self.state.environment.clone());
+        }
+        let dropped = ctx.input(|i| i.raw.dropped_files.clone());
+        if let Some(file) = dropped.first() {
+            self.run(ctx, Command::Open(file.path().to_owned()));
+        }
+        for command in keys::commands(ctx, &self.state, &mut self.dialog) {
+            self.run(ctx, command);
+        }
+        self.poll_jobs(ctx);
+        if let Some(error) = self.gpu.take_error() {
+            self.fail(format!("the graphics device reported a fault: {error}"));
+        }
+        if ctx.input(|i| i.pointer.any_released()) {
+            self.history.end_run();
+        }
+        if self.quit {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        }
+    }
+
+    /// Draws one frame into the whole of `ui`.
+    pub fn ui(&mut self, ui: &mut Ui) {
+        self.frames += 1;
+        let ctx = ui.ctx().clone();
+        let mut dialog = self.dialog.take();
+        let mut tree = std::mem::replace(&mut self.tree, egui_tiles::Tree::empty(egui::Id::unique("moved")));
+        let (commands, laid_out) = self.with_model(|model| {
+            window_ui(ui, model, &mut tree, &mut dialog);
+            dialog_ui(&ctx, model, &mut dialog);
+        });
+        self.tree = tree;
+        self.dialog = dialog;
+        let before = self.state.clone();
+        let any = !commands.is_empty();
+        for command in commands {
+            self.run(&ctx, command);
+        }
+        self.draw_views(&laid_out);
+        // What was just changed is seen in the next frame; a still window asks for none.
+        if (any && before != self.state) || self.pending || self.texel_color.is_waiting() {
+            ctx.request_repaint();
+        } else if self.is_busy() {
+            ctx.request_repaint_after(std::time::Duration::from_millis(100));
+        }
+    }
+
+    /// Draws one view alone into the whole of `ui`: for pictures.
+    pub(super) fn view_alone_ui(&mut self, ui: &mut Ui, what: picture::What) {
+        let (_, laid_out) = self.with_model(|model| match what {
+            picture::What::Viewport => super::viewport::viewport_ui(ui, model),
+            picture::What::Panel(mapping) => super::map_panel::map_panel_ui(ui, model, mapping),
+            picture::What::Window => {}
+        });
+        self.draw_views(&laid_out);
+    }
+
+    /// Runs `show` on a model of what there is; gives back what was asked for and what was laid out.
+    fn with_model(
+        &mut self,
+        show: impl FnOnce(&mut Model<'_>),
+    ) -> (Vec<Command>, Vec<(ViewKey, [u32; 2])>) {
+        let adapter = self.gpu.name();
+        let jobs = self.job_lines();
+        let mut model = Model {
+            state: &self.state,
+            history: &self.history,
+            target: &self.target.1,
+            surroundings: self.surroundings.as_ref(),
+            texel_color: self.probed,
+            plan: &self.plan,
+            frames: self.frames,
+            adapter: &adapter,
+            jobs: &jobs,
+            messages: &self.messages,
+            maximised: self.maximised,
+            gpu: &self.gpu,
+            views: &mut self.views,
+            commands: Vec::new(),
+            laid_out: Vec::new(),
+        };
+        show(&mut model);
+        (model.commands, model.laid_out)
+    }
+
+    /// Brings the textures of the views that are seen up to date, and nothing else.
+    fn draw_views(&mut self, laid_out: &[(ViewKey, [u32; 2])]) {
+        if self.gpu.is_lost() {
+            return;
+        }
+        let frame = frame_of(&self.state, laid_out, self.complete);
+        match self.renderer.draw(&frame) {
+            Ok(report) => {
+                self.pending = report.is_pending();
+                self.plan = report.to_string();
+            }
+            Err(error) => {
+                self.pending = false;
+                self.fail(error.to_string());
+            }
+        }
+        for (key, _) in laid_out {
+            let renderer = &self.renderer;
+            let texture = match key {
+                ViewKey::Viewport => renderer.viewport().zip(renderer.viewport_id()),
+                ViewKey::Panel(mapping) => {
+                    renderer.panel(*mapping).zip(renderer.panel_id(*mapping))
+                }
+            };
+            self.views.show(&self.gpu, *key, texture);
+        }
+        self.views.retain(|key| laid_out.iter().any(|(shown, _)| *shown == key));
+        self.probed = self.probed_color();
+    }
+
+    /// Linear colour of the probed texel, when it has come back from the device.
+    fn probed_color(&mut self) -> Option<[f32; 3]> {
+        let mapping = self.state.mapping;
+        let point = mapping.forward(self.state.probe_f64())?;
+        let size = crate::gpu::map_size(mapping, self.state.texel_budget);
+        let key = TexelKey {
+            mapping,
+            chart: point.chart,
+            texel: super::probe::texel_of(point, size),
+            bakes: self.renderer.report().totals.map_bakes,
+        };
+        self.texel_color.get(&self.renderer, key)
+    }
+
+    fn job_lines(&self) -> Vec<JobLine> {
+        let line = |id: u64, title: &str, progress: &crate::imaging::Progress| JobLine {
+            id,
+            title: title.to_owned(),
+            fraction: progress.fraction(),
+        };
+        let loading = self.loading.iter().map(|(_, job)| line(job.id, &job.title, &job.progress));
+        let opening = self.opening.iter().map(|job| line(job.id, &job.title, &job.progress));
+        let pictures = self.pictures.iter().map(|(_, job)| line(job.id, &job.title, &job.progress));
+        loading.chain(opening).chain(pictures).collect()
+    }
+
+    /// Carries out a command.
+    pub fn run(&mut self, ctx: &Context, command: Command) {
+        match command {
+            Command::Do(action) => self.act(action),
+            Command::Undo => {
+                if let Some(state) = self.history.undo(&self.state) {
+                    self.replace(ctx, state);
+                }
+            }
+            Command::Redo => {
+                if let Some(state) = self.history.redo(&self.state) {
+                    self.replace(ctx, state);
+                }
+            }
+            Command::LoadEnvironment(environment) => self.load(ctx, environment),
+            Command::AskOpen => self.ask(ctx, Dialog::Open(String::new())),
+            Command::AskSaveScene => self.ask(ctx, Dialog::SaveScene(String::new())),
+            Command::AskPicturePath => {
+                if let Some(dialog @ Dialog::Picture(_)) = self.dialog.clone() {
+                    self.ask(ctx, dialog);
+                }
+            }
+            Command::Open(path) => self.open(ctx, path),
+            Command::SaveScene(path) => {
+                let text = self.state.to_json();
+                match crate::imaging::atomic::write_atomically(&path, false, text.as_bytes()) {
+                    Ok(()) => self.tell(format!("The scene is in {}", path.display())),
+                    Err(error) => self.fail(error.to_string()),
+                }
+            }
+            Command::MakePicture(request) => self.make_picture(ctx, request),
+            Command::ShowPictureDialog(show) => {
+                self.dialog = show.then(|| Dialog::Picture(Default::default()));
+            }
+            Command::Cancel(id) => self.cancel(id),
+            Command::Dismiss(index) => {
+                if index < self.messages.len() {
+                    self.messages.remove(index);
+                }
+            }
+            Command::CopyText(text) => ctx.copy_text(text),
+            Command::ResetArrangement => {
+                self.act(Action::SetArrangement(None));
+                self.maximised = None;
+                self.tree = panes::tree_of(&self.state);
+            }
+            Command::Maximise(pane) => self.maximised = pane,
+            Command::Quit => self.quit = true,
+        }
+    }
+
+    /// Changes the state, remembering how to take it back.
+    fn act(&mut self, action: Action) {
+        let before = self.state.clone();
+        self.history.record(&before, &action);
+        apply(&mut self.state, action);
+        self.follow_state();
+    }
+
+    /// Another state altogether: its surroundings may have to be loaded.
+    fn replace(&mut self, ctx: &Context, state: AppState) {
+        let environment = state.environment.clone();
+        self.state = state;
+        self.follow_state();
+        let shown = self.surroundings.as_ref().is_some_and(|s| s.environment == environment);
+        if !shown {
+            self.load(ctx, environment);
+        }
+    }
+
+    fn follow_state(&mut self) {
+        if self.target.0 != self.state.object {
+            self.target = (self.state.object, Target::new(self.state.object.mesh()));
+        }
+        panes::follow(&mut self.tree, &self.state);
+    }
+
+    fn job_id(&mut self) -> u64 {
+        self.next_job += 1;
+        self.next_job
+    }
+
+    /// Starts loading surroundings; an older load is cancelled.
+    fn load(&mut self, ctx: &Context, environment: Environment) {
+        let (id, wake) = (self.job_id(), ctx.clone());
+        let wanted = environment.clone();
+        let title = format!("opening {}", environment.name());
+        let job = Job::start(id, title, move || wake.request_repaint(), move |progress| {
+            wanted.image(progress)
+        });
+        match job {
+            Ok(job) => self.loading = Some((environment, job)),
+            Err(error) => self.fail(format!("no thread for opening the environment: {error}")),
+        }
+    }
+
+    /// Opens a scene, a picture with a scene in it, or an environment, whichever the file is.
+    fn open(&mut self, ctx: &Context, path: PathBuf) {
+        let (id, wake) = (self.job_id(), ctx.clone());
+        let title = format!("reading {}", path.display());
+        let job =
+            Job::start(id, title, move || wake.request_repaint(), move |_| files::open(&path));
+        match job {
+            Ok(job) => self.opening = Some(job),
+            Err(error) => self.fail(format!("no thread for opening the file: {error}")),
+        }
+    }
+
+    fn make_picture(&mut self, ctx: &Context, request: PictureRequest) {
+        let Some(surroundings) = self.surroundings.clone() else {
+            self.fail("the environment is still loading; save the picture when it is there".to_owned());
+            return;
+        };
+        let (id, wake, gpu) = (self.job_id(), ctx.clone(), self.gpu.clone());
+        let (state, what) = (self.state.clone(), request.clone());
+        let job = Job::start(
+            id,
+            "drawing the picture".to_owned(),
+            move || wake.request_repaint(),
+            move |progress| picture::make(&gpu, &state, surroundings, &what, progress),
+        );
+        match job {
+            Ok(job) => self.pictures.push((request, job)),
+            Err(error) => self.fail(format!("no thread for drawing the picture: {error}")),
+        }
+    }
+
+    /// Opens a dialog of the system on a thread of its own.
+    fn ask(&mut self, ctx: &Context, dialog: Dialog) {
+        let (id, wake, kind) = (self.job_id(), ctx.clone(), dialog.clone());
+        let job = Job::start(id, "file dialog".to_owned(), move || wake.request_repaint(), move |_| {
+            files::ask(&kind)
+        });
+        match job {
+            Ok(job) => self.asked = Some((dialog, job)),
+            Err(error) => self.fail(format!("no thread for the file dialog: {error}")),
+        }
+    }
+
+    fn cancel(&mut self, id: u64) {
+        self.loading.take_if(|(_, job)| job.id == id);
+        self.opening.take_if(|job| job.id == id);
+        self.pictures.retain(|(_, job)| job.id != id);
+    }
+
+    fn poll_jobs(&mut self, ctx: &Context) {
+        self.poll_loading();
+        self.poll_opening(ctx);
+        self.poll_pictures(ctx);
+        self.poll_asked(ctx);
+    }
+
+    fn poll_loading(&mut self) {
+        let Some((environment, job)) = self.loading.take() else { return };
+        match job.poll() {
+            Outcome::Running => self.loading = Some((environment, job)),
+            Outcome::Done(Ok(loaded)) => {
+                if let Some(summary) = loaded.bad.summary() {
+                    self.tell(summary);
+                }
+                self.install(Surroundings { environment, loaded: Arc::new(loaded) });
+            }
+            Outcome::Done(Err(error)) => self.loading_failed(error.to_string()),
+            Outcome::Failed => {
+                self.loading_failed("opening the environment ended without a result".to_owned());
+            }
+        }
+    }
+
+    /// A bad file leaves the scene as it was; a scene whose environment is missing gets the default one.
+    fn loading_failed(&mut self, why: String) {
+        self.fail(why);
+        match &self.surroundings {
+            Some(shown) => self.state.environment = shown.environment.clone(),
+            None => self.state.environment = Environment::default(),
+        }
+    }
+
+    fn install(&mut self, surroundings: Surroundings) {
+        let image = &surroundings.loaded.image;
+        let source = EnvironmentSource {
+            width: image.width(),
+            height: image.height(),
+            pixels: image.pixels(),
+        };
+        if let Err(error) = self.renderer.set_environment(source) {
+            self.loading_failed(error.to_string());
+            return;
+        }
+        if self.state.environment != surroundings.environment {
+            self.act(Action::SetEnvironment(surroundings.environment.clone()));
+        }
+        self.surroundings = Some(surroundings);
+    }
+
+    fn poll_opening(&mut self, ctx: &Context) {
+        let Some(job) = self.opening.take() else { return };
+        match job.poll() {
+            Outcome::Running => self.opening = Some(job),
+            Outcome::Done(Ok(Opened::Scene(state))) => {
+                self.history.record(&self.state, &Action::Load(state.clone()));
+                self.replace(ctx, state.sanitized());
+                self.tree = panes::tree_of(&self.state);
+            }
+            Outcome::Done(Ok(Opened::Environment(environment))) => self.load(ctx, environment),
+            Outcome::Done(Err(why)) => self.fail(why),
+            Outcome::Failed => self.fail("reading the file ended without a result".to_owned()),
+        }
+    }
+
+    fn poll_pictures(&mut self, ctx: &Context) {
+        for (request, job) in std::mem::take(&mut self.pictures) {
+            match job.poll() {
+                Outcome::Running => self.pictures.push((request, job)),
+                Outcome::Done(Ok(picture)) => match request.to {
+                    Destination::File { path, .. } => {
+                        self.tell(format!("The picture is in {}", path.display()));
+                    }
+                    Destination::Clipboard => {
+                        ctx.copy_image(picture.to_color_image());
+                        self.tell("The picture is on the clipboard".to_owned());
+                    }
+                },
+                Outcome::Done(Err(why)) => self.fail(why),
+                Outcome::Failed => {
+                    self.fail("drawing the picture ended without a result".to_owned());
+                }
+            }
+        }
+    }
+
+    fn poll_asked(&mut self, ctx: &Context) {
+        let Some((dialog, job)) = self.asked.take() else { return };
+        let path = match job.poll() {
+            Outcome::Running => {
+                self.asked = Some((dialog, job));
+                return;
+            }
+            Outcome::Done(path) => path,
+            Outcome::Failed => None,
+        };
+        let text = path.as_deref().map(|p| p.display().to_string());
+        match (dialog, path) {
+            (Dialog::Open(_), Some(path)) => {
+                self.dialog = None;
+                self.open(ctx, path);
+            }
+            // Without a dialog of the system the path can still be typed.
+            (Dialog::Open(_), None) => self.dialog = Some(Dialog::Open(String::new())),
+            (Dialog::SaveScene(_), path) => {
+                self.dialog = Some(Dialog::SaveScene(text.unwrap_or_default()));
+                drop(path);
+            }
+            (Dialog::Picture(mut fields), _) => {
+                fields.path = text.unwrap_or(fields.path);
+                self.dialog = Some(Dialog::Picture(fields));
+            }
+        }
+    }
+
+    fn tell(&mut self, text: String) {
+        self.message(Message { text, is_error: false });
+    }
+
+    fn fail(&mut self, text: String) {
+        self.message(Message { text, is_error: true });
+    }
+
+    /// Shows a message once; the newest four stay.
+    fn message(&mut self, message: Message) {
+        const MOST: usize = 4;
+        if self.messages.last() != Some(&message) {
+            self.messages.push(message);
+        }
+        while self.messages.len() > MOST {
+            self.messages.remove(0);
+        }
+    }
+
+    /// Saves the scene where it is found again after the device was lost, and says where.
+    pub fn rescue(&self) -> String {
+        let path = rescue_path();
+        match crate::imaging::atomic::write_atomically(&path, true, self.state.to_json().as_bytes())
+        {
+            Ok(()) => format!("the scene is in {}", path.display()),
+            Err(error) => format!("the scene could not be saved: {error}"),
+        }
+    }
+}
+
+fn rescue_path() -> PathBuf {
+    Path::new(&std::env::temp_dir()).join("sixfold-rescued.json")
+}
+
+/// Everything in the window, from the borders inwards.
+fn window_ui(
+    ui: &mut Ui,
+    model: &mut Model<'_>,
+    tree: &mut egui_tiles::Tree<Pane>,
+    dialog: &mut Option<Dialog>,
+) {
+    Panel::top("menu").show(ui, |ui| bars::menu_ui(ui, model, dialog));
+    Panel::bottom("status").show(ui, |ui| bars::status_ui(ui, model));
+    Panel::left("controls")
+        .default_size(196.0)
+        .size_range(160.0..=320.0)
+        .show(ui, |ui| controls::controls_ui(ui, model));
+    if model.state.inspector.open {
+        Panel::right("inspector")
+            .default_size(372.0)
+            .size_range(260.0..=640.0)
+            .show(ui, |ui| inspector::inspector_ui(ui, model));
+    }
+    CentralPanel::no_frame().show(ui, |ui| panes::panes_ui(ui, model, tree));
+}

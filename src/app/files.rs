@@ -1,0 +1,119 @@
+//! Files that the window opens: scenes, pictures that hold a scene, environments.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use super::dialogs::Dialog;
+use super::state::AppState;
+use crate::imaging::{Environment, png_out};
+
+/// Largest scene file that is read. A scene has a few kilobytes.
+const MOST_SCENE_BYTES: u64 = 1 << 20;
+
+/// What a file turned out to be.
+#[derive(Debug)]
+pub enum Opened {
+    /// A scene.
+    Scene(Box<AppState>),
+    /// Something to be loaded as surroundings.
+    Environment(Environment),
+}
+
+/// Looks into a file: a scene as text or inside a PNG, else an environment.
+///
+/// # Errors
+/// One line that says what is wrong with the file.
+pub fn open(path: &Path) -> Result<Opened, String> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+    let scene = |text: &str| {
+        AppState::from_json(text)
+            .map(|state| Opened::Scene(Box::new(state)))
+            .map_err(|error| format!("{error}: {}", path.display()))
+    };
+    match extension.as_str() {
+        "json" | "sixfold" => scene(&read_text(path)?),
+        // A PNG without a scene may still be an environment, and a damaged one is reported by whoever decodes it.
+        "png" => match png_out::read_scene(path) {
+            Ok(Some(text)) => scene(&text),
+            _ => Ok(environment(path)),
+        },
+        _ => Ok(environment(path)),
+    }
+}
+
+/// The scene in a file.
+///
+/// # Errors
+/// One line that says why there is none.
+pub fn open_scene(path: &Path) -> Result<AppState, String> {
+    match open(path)? {
+        Opened::Scene(state) => Ok(*state),
+        Opened::Environment(environment) => {
+            Ok(AppState { environment, ..AppState::default() })
+        }
+    }
+}
+
+fn environment(path: &Path) -> Opened {
+    // A path of its own: a scene that is opened from elsewhere must find the file again.
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    Opened::Environment(Environment::File(path))
+}
+
+fn read_text(path: &Path) -> Result<String, String> {
+    let describe = |error: std::io::Error| format!("the scene cannot be read ({error}): {}", path.display());
+    let file = std::fs::File::open(path).map_err(describe)?;
+    let mut text = String::new();
+    file.take(MOST_SCENE_BYTES + 1).read_to_string(&mut text).map_err(describe)?;
+    if text.len() as u64 > MOST_SCENE_BYTES {
+        return Err(format!(
+            "a scene has at most {MOST_SCENE_BYTES} bytes, this file has more: {}",
+            path.display()
+        ));
+    }
+    Ok(text)
+}
+
+/// Asks for a path in a dialog of the system; waits for the answer, so it runs on a thread of its own. `None` when the user
+/// declined or the system has no dialog.
+pub fn ask(dialog: &Dialog) -> Option<PathBuf> {
+    let files = rfd::FileDialog::new();
+    match dialog {
+        Dialog::Open(_) => files
+            .add_filter("environments and scenes", &["hdr", "exr", "png", "jpg", "jpeg", "json"])
+            .pick_file(),
+        Dialog::SaveScene(_) => files.set_file_name("scene.sixfold.json").save_file(),
+        Dialog::Picture(_) => files.set_file_name("sixfold.png").save_file(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_comes_back_from_text_and_from_a_picture() {
+        let folder = tempfile::tempdir().unwrap();
+        let state = AppState { divider: 0.25, ..AppState::default() };
+        let text = folder.path().join("a.json");
+        std::fs::write(&text, state.to_json()).unwrap();
+        assert_eq!(open_scene(&text).unwrap(), state);
+        let picture = folder.path().join("b.png");
+        let json = state.to_json();
+        let bytes = png_out::encode_png(1, 1, &[1, 2, 3, 255], Some(&json)).unwrap();
+        std::fs::write(&picture, bytes).unwrap();
+        assert_eq!(open_scene(&picture).unwrap(), state);
+    }
+
+    #[test]
+    fn other_files_are_environments_or_refused_in_one_line() {
+        let folder = tempfile::tempdir().unwrap();
+        let bad = folder.path().join("bad.json");
+        std::fs::write(&bad, "{ not a scene").unwrap();
+        let why = open(&bad).unwrap_err();
+        assert!(why.contains("bad.json") && !why.contains('\n'), "{why}");
+        assert!(open(&folder.path().join("missing.json")).is_err());
+        let other = open(&folder.path().join("sky.exr")).unwrap();
+        assert!(matches!(other, Opened::Environment(Environment::File(_))));
+    }
+}

@@ -1,0 +1,126 @@
+//! The panel of one mapping: its unfolded picture with the probe's marks.
+
+use egui::{Align2, Color32, PointerButton, Rect, Response, Sense, Ui};
+
+use super::action::{Action, probe_at};
+use super::marks::{cross_mark, edged_line, edged_text};
+use super::model::Model;
+use super::panel_view::PanelWindow;
+use super::probe::{face_outline, picture_lines, texel_outline};
+use super::state::PanelState;
+use super::theme;
+use super::views::ViewKey;
+use crate::mapping::{Layout, MappingId};
+
+/// Smallest size on the screen at which a texel's outline is drawn, in points: below, the mark hides it.
+const SMALLEST_TEXEL: f32 = 1.5;
+
+/// The window of a panel over a rectangle of the screen.
+pub fn window_of(view: &PanelState, rect: Rect) -> PanelWindow {
+    let info = view.mapping.info();
+    PanelWindow::new(rect, view, info.layout.picture_aspect(info.aspect) as f32)
+}
+
+/// Shows the panel in all the space there is.
+pub fn map_panel_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
+    let rect = ui.available_rect_before_wrap();
+    if rect.width() < 1.0 || rect.height() < 1.0 {
+        return;
+    }
+    let name = format!("{} map", mapping.info().name);
+    let response = ui.allocate_rect(rect, Sense::click_and_drag());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
+    model.view_ui(ui, ViewKey::Panel(mapping), rect);
+    let view = model.state.panel(mapping);
+    let window = window_of(&view, rect);
+    pointer(ui, model, view, &window, &response);
+    let painter = ui.painter_at(rect);
+    paint_chart_names(&painter, mapping, &window);
+    if model.state.overlays.probe {
+        paint_probe(&painter, model, mapping, &window);
+    }
+}
+
+/// What the pointer does: finds directions, pans and zooms.
+fn pointer(
+    ui: &Ui,
+    model: &mut Model<'_>,
+    view: PanelState,
+    window: &PanelWindow,
+    response: &Response,
+) {
+    if response.dragged_by(PointerButton::Secondary) || response.dragged_by(PointerButton::Middle)
+    {
+        model.push(Action::SetPanelView(window.panned(view, response.drag_delta())));
+        return;
+    }
+    let Some(pos) = response.hover_pos().or(response.interact_pointer_pos()) else { return };
+    let scroll = ui.input(|i| i.smooth_scroll_delta.y);
+    if response.contains_pointer() && scroll != 0.0 {
+        let zoomed = window.zoomed(view, (scroll * 0.005).exp(), pos);
+        model.push(Action::SetPanelView(zoomed));
+    }
+    if response.double_clicked() {
+        model.push(Action::SetPanelView(PanelState::new(view.mapping, view.open)));
+    }
+    let moved = ui.input(|i| i.pointer.delta() != egui::Vec2::ZERO || i.pointer.any_pressed());
+    let held = response.dragged_by(PointerButton::Primary) || response.clicked();
+    if held || (model.state.probe_follows && moved) {
+        let layout = view.mapping.info().layout;
+        let place = window.picture_from_screen(pos);
+        if let Some(action) =
+            layout.chart_from_picture(place).and_then(|point| probe_at(view.mapping, point))
+        {
+            model.push(action);
+        }
+    }
+    if response.clicked() && model.state.probe_follows {
+        model.push(Action::FollowPointer(false));
+    }
+}
+
+/// The name of each chart in its corner.
+fn paint_chart_names(painter: &egui::Painter, mapping: MappingId, window: &PanelWindow) {
+    let info = mapping.info();
+    if info.layout == Layout::Single {
+        return;
+    }
+    for (chart, name) in info.charts.iter().enumerate() {
+        let corner = crate::mapping::ChartPoint::new(chart as u32, 0.02, 0.01);
+        if let Some(place) = info.layout.picture_from_chart(corner) {
+            let at = window.screen_from_picture(place);
+            edged_text(painter, at, Align2::LEFT_TOP, name, Color32::from_gray(230));
+        }
+    }
+}
+
+/// The probe's face, its texel and itself.
+fn paint_probe(
+    painter: &egui::Painter,
+    model: &Model<'_>,
+    mapping: MappingId,
+    window: &PanelWindow,
+) {
+    let dir = model.state.probe_f64();
+    let info = mapping.info();
+    let lines = |outline: &[_], width: f32, color: Color32| {
+        for line in picture_lines(mapping, outline) {
+            let points = line.into_iter().map(|p| window.screen_from_picture(p)).collect();
+            edged_line(painter, points, width, color);
+        }
+    };
+    lines(&face_outline(dir), 1.5, theme::PROBE);
+    let size = model.map_size(model.state.mapping);
+    let [columns, _] = info.layout.grid();
+    let own = model.map_size(mapping);
+    let texel_points = window.points_across() / (columns * own[0]) as f32;
+    if texel_points >= SMALLEST_TEXEL {
+        lines(&texel_outline(model.state.mapping, size, dir), 1.5, theme::TEXEL);
+    }
+    let place = mapping.forward(dir).and_then(|p| info.layout.picture_from_chart(p));
+    if let Some(place) = place {
+        let own = info.coverage.contains(dir.to_f64());
+        let color = if own { theme::PROBE } else { Color32::GRAY };
+        cross_mark(painter, window.screen_from_picture(place), color);
+    }
+}

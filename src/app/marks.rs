@@ -1,0 +1,51 @@
+//! Lines and arrows with an edge, readable on every picture.
+
+use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Vec2};
+
+use super::theme::PROBE_EDGE;
+
+/// A line with a dark edge.
+pub fn edged_line(painter: &Painter, points: Vec<Pos2>, width: f32, color: Color32) {
+    let edge = PROBE_EDGE.gamma_multiply(0.7);
+    painter.line(points.clone(), Stroke::new(width + 2.0, edge));
+    painter.line(points, Stroke::new(width, color));
+}
+
+/// A circle with a cross in it.
+pub fn cross_mark(painter: &Painter, at: Pos2, color: Color32) {
+    const RADIUS: f32 = 6.0;
+    painter.circle_stroke(at, RADIUS, Stroke::new(3.5, PROBE_EDGE.gamma_multiply(0.8)));
+    painter.circle_stroke(at, RADIUS, Stroke::new(1.5, color));
+    for dir in [Vec2::X, Vec2::Y] {
+        for side in [-1.0, 1.0] {
+            let (from, to) = (at + dir * side * RADIUS, at + dir * side * (RADIUS + 5.0));
+            edged_line(painter, vec![from, to], 1.5, color);
+        }
+    }
+}
+
+/// An arrow with its name at the tip.
+pub fn arrow(painter: &Painter, from: Pos2, to: Pos2, color: Color32, name: &str) {
+    const HEAD: f32 = 9.0;
+    edged_line(painter, vec![from, to], 2.0, color);
+    let along = to - from;
+    if along.length() > 2.0 {
+        let dir = along.normalized();
+        let side = Vec2::new(-dir.y, dir.x);
+        let barbs = [to - dir * HEAD + side * HEAD * 0.45, to, to - dir * HEAD - side * HEAD * 0.45];
+        edged_line(painter, barbs.to_vec(), 2.0, color);
+    }
+    if !name.is_empty() {
+        let away = if along.length() > 0.0 { along.normalized() } else { Vec2::X };
+        edged_text(painter, to + away * 10.0, Align2::CENTER_CENTER, name, color);
+    }
+}
+
+/// Text with a dark edge.
+pub fn edged_text(painter: &Painter, at: Pos2, anchor: Align2, text: &str, color: Color32) {
+    let font = FontId::proportional(13.0);
+    for offset in [Vec2::X, -Vec2::X, Vec2::Y, -Vec2::Y] {
+        painter.text(at + offset, anchor, text, font.clone(), PROBE_EDGE.gamma_multiply(0.8));
+    }
+    painter.text(at, anchor, text, font, color);
+}

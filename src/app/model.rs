@@ -1,0 +1,105 @@
+//! What the panels see: the state and what was made of it. They change nothing; they push commands.
+
+use std::sync::Arc;
+
+use crate::imaging::{BadTexels, Environment, Loaded};
+use crate::mapping::MappingId;
+use crate::scene::Target;
+
+use super::command::Command;
+use super::history::History;
+use super::state::AppState;
+use super::views::{ViewKey, Views};
+use crate::gpu::Gpu;
+
+/// The surroundings that are shown.
+#[derive(Clone)]
+pub struct Surroundings {
+    /// Which they are.
+    pub environment: Environment,
+    /// Their picture and what was wrong with it.
+    pub loaded: Arc<Loaded>,
+}
+
+impl Surroundings {
+    /// Texels that had to be replaced.
+    pub fn bad_texels(&self) -> &BadTexels {
+        &self.loaded.bad
+    }
+}
+
+/// One line about a running job.
+#[derive(Clone, Debug)]
+pub struct JobLine {
+    /// Its number, for cancelling.
+    pub id: u64,
+    /// What it does.
+    pub title: String,
+    /// How far it is, 0 to 1.
+    pub fraction: f32,
+}
+
+/// A message that stays until it is dismissed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// What happened and what to do.
+    pub text: String,
+    /// It is a failure.
+    pub is_error: bool,
+}
+
+/// Everything a panel may look at, and where it says what it wants.
+pub struct Model<'a> {
+    /// The state.
+    pub state: &'a AppState,
+    /// What can be undone.
+    pub history: &'a History,
+    /// The object, prepared for rays.
+    pub target: &'a Target,
+    /// The surroundings; `None` until the first ones are there.
+    pub surroundings: Option<&'a Surroundings>,
+    /// Linear colour of the probed texel in the selected map, when it has been read back.
+    pub texel_color: Option<[f32; 3]>,
+    /// The frame plan's account of the last drawing.
+    pub plan: &'a str,
+    /// Frames drawn so far.
+    pub frames: u64,
+    /// Name of the adapter.
+    pub adapter: &'a str,
+    /// Jobs under way.
+    pub jobs: &'a [JobLine],
+    /// Messages to show.
+    pub messages: &'a [Message],
+    /// Shown alone, if any.
+    pub maximised: Option<super::panes::Pane>,
+    /// The device, for naming views.
+    pub gpu: &'a Gpu,
+    /// Names of the renderer's textures.
+    pub views: &'a mut Views,
+    /// What the panels want.
+    pub commands: Vec<Command>,
+    /// The views that were laid out, with their size in pixels.
+    pub laid_out: Vec<(ViewKey, [u32; 2])>,
+}
+
+impl Model<'_> {
+    /// Asks for something.
+    pub fn push(&mut self, command: impl Into<Command>) {
+        self.commands.push(command.into());
+    }
+
+    /// Size in texels of the charts of a mapping.
+    pub fn map_size(&self, mapping: MappingId) -> [u32; 2] {
+        crate::gpu::map_size(mapping, self.state.texel_budget)
+    }
+
+    /// Lays a view out over a rectangle of the screen and paints its texture there.
+    pub fn view_ui(&mut self, ui: &egui::Ui, key: ViewKey, rect: egui::Rect) {
+        let pixels = rect.size() * ui.ctx().pixels_per_point();
+        let side = |length: f32| (length.round() as u32).clamp(1, super::picture::MAX_SIDE);
+        self.laid_out.push((key, [side(pixels.x), side(pixels.y)]));
+        let id = self.views.id(self.gpu, key);
+        let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
+        ui.painter().image(id, rect, whole, egui::Color32::WHITE);
+    }
+}

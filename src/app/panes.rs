@@ -1,0 +1,208 @@
+//! The arrangement: the viewport and one panel a mapping as tiles that can be moved, hidden and maximised.
+
+use egui_tiles::{Behavior, Container, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
+use serde::{Deserialize, Serialize};
+
+use super::action::Action;
+use super::command::Command;
+use super::model::Model;
+use super::state::AppState;
+use super::{map_panel, viewport};
+use crate::mapping::MappingId;
+
+/// What a tile shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Pane {
+    /// The mirror object before its surroundings.
+    Viewport,
+    /// The unfolded picture of a mapping.
+    Map(MappingId),
+}
+
+impl Pane {
+    /// Its title.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Viewport => "Viewport",
+            Self::Map(mapping) => mapping.info().name,
+        }
+    }
+}
+
+/// The first arrangement: the viewport above a grid of the open panels.
+pub fn first_tree(state: &AppState) -> Tree<Pane> {
+    let mut tiles = Tiles::default();
+    let viewport = tiles.insert_pane(Pane::Viewport);
+    let open = state.panels.iter().filter(|p| p.open);
+    let maps: Vec<TileId> = open.map(|p| tiles.insert_pane(Pane::Map(p.mapping))).collect();
+    let grid = tiles.insert_grid_tile(maps);
+    let root = tiles.insert_vertical_tile(vec![viewport, grid]);
+    if let Some(Tile::Container(Container::Linear(linear))) = tiles.get_mut(root) {
+        linear.shares.set_share(viewport, 1.15);
+        linear.shares.set_share(grid, 1.0);
+    }
+    Tree::new(egui::Id::unique("panes"), root, tiles)
+}
+
+/// The saved arrangement, or the first one where none was saved or it cannot be read.
+pub fn tree_of(state: &AppState) -> Tree<Pane> {
+    let saved = state.arrangement.clone().and_then(|v| serde_json::from_value(v).ok());
+    let mut tree = saved.unwrap_or_else(|| first_tree(state));
+    follow(&mut tree, state);
+    tree
+}
+
+/// Adds the panels that were opened and takes away those that were hidden.
+pub fn follow(tree: &mut Tree<Pane>, state: &AppState) {
+    if find(tree, Pane::Viewport).is_none() {
+        *tree = first_tree(state);
+    }
+    for panel in &state.panels {
+        match (panel.open, find(tree, Pane::Map(panel.mapping))) {
+            (true, None) => insert(tree, Pane::Map(panel.mapping)),
+            (false, Some(id)) => {
+                tree.remove_recursively(id);
+            }
+            _ => {}
+        }
+    }
+}
+
+fn find(tree: &Tree<Pane>, pane: Pane) -> Option<TileId> {
+    tree.tiles.find_pane(&pane)
+}
+
+/// Puts a pane beside the last map, or below everything.
+fn insert(tree: &mut Tree<Pane>, pane: Pane) {
+    let id = tree.tiles.insert_pane(pane);
+    let grids: Vec<TileId> = tree
+        .tiles
+        .iter()
+        .filter(|(_, tile)| matches!(tile, Tile::Container(Container::Grid(_))))
+        .map(|(id, _)| *id)
+        .collect();
+    let place = grids.first().copied().or(tree.root());
+    match place {
+        Some(container) => tree.move_tile_to_container(id, container, usize::MAX, true),
+        None => tree.root = Some(id),
+    }
+}
+
+/// Shows the tiles, or one pane alone.
+pub fn panes_ui(ui: &mut egui::Ui, model: &mut Model<'_>, tree: &mut Tree<Pane>) {
+    if let Some(pane) = model.maximised {
+        ui.horizontal(|ui| {
+            ui.strong(pane.name());
+            if ui.button("Show all panels").clicked() {
+                model.push(Command::Maximise(None));
+            }
+        });
+        pane_ui(ui, model, pane);
+        return;
+    }
+    let mut behavior = PaneBehavior { model, edited: false };
+    tree.ui(&mut behavior, ui);
+    if behavior.edited {
+        let arrangement = serde_json::to_value(&*tree).ok();
+        model.push(Action::SetArrangement(arrangement));
+    }
+}
+
+fn pane_ui(ui: &mut egui::Ui, model: &mut Model<'_>, pane: Pane) {
+    match pane {
+        Pane::Viewport => viewport::viewport_ui(ui, model),
+        Pane::Map(mapping) => map_panel::map_panel_ui(ui, model, mapping),
+    }
+}
+
+struct PaneBehavior<'a, 'm> {
+    model: &'a mut Model<'m>,
+    edited: bool,
+}
+
+impl Behavior<Pane> for PaneBehavior<'_, '_> {
+    fn pane_ui(&mut self, ui: &mut egui::Ui, _: TileId, pane: &mut Pane) -> UiResponse {
+        pane_ui(ui, self.model, *pane);
+        UiResponse::None
+    }
+
+    fn tab_title_for_pane(&mut self, pane: &Pane) -> egui::WidgetText {
+        pane.name().into()
+    }
+
+    fn is_tab_closable(&self, tiles: &Tiles<Pane>, tile: TileId) -> bool {
+        matches!(tiles.get(tile), Some(Tile::Pane(Pane::Map(_))))
+    }
+
+    fn on_tab_close(&mut self, tiles: &mut Tiles<Pane>, tile: TileId) -> bool {
+        if let Some(Tile::Pane(Pane::Map(mapping))) = tiles.get(tile) {
+            self.model.push(Action::SetPanelOpen(*mapping, false));
+        }
+        false // the tile goes when the state says so
+    }
+
+    fn top_bar_right_ui(
+        &mut self,
+        tiles: &Tiles<Pane>,
+        ui: &mut egui::Ui,
+        _: TileId,
+        tabs: &egui_tiles::Tabs,
+        _: &mut f32,
+    ) {
+        let Some(Tile::Pane(pane)) = tabs.active.and_then(|id| tiles.get(id)) else { return };
+        let name = format!("Maximise {}", pane.name());
+        let button = egui::Button::new("⛶").small().frame(false);
+        let response = ui.add(button).on_hover_text(&name);
+        response.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::Role::Button, true, name.as_str())
+        });
+        if response.clicked() {
+            self.model.push(Command::Maximise(Some(*pane)));
+        }
+    }
+
+    fn simplification_options(&self) -> SimplificationOptions {
+        SimplificationOptions { all_panes_must_have_tabs: true, ..Default::default() }
+    }
+
+    fn tab_bar_height(&self, _: &egui::Style) -> f32 {
+        20.0
+    }
+
+    fn gap_width(&self, _: &egui::Style) -> f32 {
+        3.0
+    }
+
+    fn on_edit(&mut self, edit: egui_tiles::EditAction) {
+        if edit != egui_tiles::EditAction::TabSelected {
+            self.edited = true;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tree_follows_the_state_and_survives_its_file() {
+        let mut state = AppState::default();
+        let mut tree = tree_of(&state);
+        let shown = |tree: &Tree<Pane>| {
+            MappingId::ALL.iter().filter(|m| find(tree, Pane::Map(**m)).is_some()).count()
+        };
+        assert_eq!(shown(&tree), 6);
+        state.panel_mut(MappingId::Eac).unwrap().open = true;
+        state.panel_mut(MappingId::Latlong).unwrap().open = false;
+        state.panel_mut(MappingId::Sphere).unwrap().open = false;
+        follow(&mut tree, &state);
+        assert_eq!(shown(&tree), 5);
+        assert!(find(&tree, Pane::Map(MappingId::Eac)).is_some());
+        assert!(find(&tree, Pane::Map(MappingId::Latlong)).is_none());
+        state.arrangement = Some(serde_json::to_value(&tree).unwrap());
+        assert_eq!(shown(&tree_of(&state)), 5);
+        // A damaged arrangement falls back to the first one.
+        state.arrangement = Some(serde_json::json!({"root": 7}));
+        assert!(find(&tree_of(&state), Pane::Viewport).is_some());
+    }
+}

@@ -1,0 +1,320 @@
+//! What the window shows, as plain data: saved scenes, undo and exports are copies of it.
+
+use serde::{Deserialize, Serialize};
+
+use crate::gpu::ToneCurve;
+use crate::imaging::Environment;
+use crate::mapping::MappingId;
+use crate::math::Vec3;
+use crate::scene::{Camera, Object};
+
+/// Version of the saved form. A scene of a later version is refused; earlier ones are migrated by [`AppState::from_json`].
+pub const SCHEMA: u32 = 1;
+
+/// Everything that a saved scene holds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct AppState {
+    /// Version of this form.
+    pub schema: u32,
+    /// What surrounds the object.
+    pub environment: Environment,
+    /// The mapping that the object and the sky look up.
+    pub mapping: MappingId,
+    /// A second mapping right of the divider.
+    pub compare: Option<MappingId>,
+    /// Place of the divider, 0 (left border) to 1.
+    pub divider: f32,
+    /// The mirror object.
+    pub object: Object,
+    /// The eye.
+    pub camera: Camera,
+    /// Exposure in stops: the light is multiplied by 2^ev.
+    pub exposure_ev: f32,
+    /// From light to the screen's range.
+    pub tone: ToneCurve,
+    /// Texels of each map, the same for every mapping.
+    pub texel_budget: u32,
+    /// What is drawn over the pictures.
+    pub overlays: Overlays,
+    /// The direction under study; unit length.
+    pub probe: [f32; 3],
+    /// The probe follows the pointer.
+    pub probe_follows: bool,
+    /// Place in the viewport, in [0, 1]^2 with v down, whose ray made the probe; `None` when a panel did.
+    pub eye_ray: Option<[f32; 2]>,
+    /// One entry for each mapping, in the registry's order.
+    pub panels: Vec<PanelState>,
+    /// How the panels are arranged, in the tiling library's own form.
+    pub arrangement: Option<serde_json::Value>,
+    /// What the inspector shows.
+    pub inspector: InspectorState,
+}
+
+/// What is drawn over the pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Overlays {
+    /// The six great circles A to F.
+    pub great_circles: bool,
+    /// A tint for each face of the continuous cube map.
+    pub face_tint: bool,
+    /// Lines of equal u and v.
+    pub grid: bool,
+    /// Incident, normal and reflected vector.
+    pub vectors: bool,
+    /// The axes of the world.
+    pub axes: bool,
+    /// The probe's mark, the outline of its face and its texel.
+    pub probe: bool,
+}
+
+impl Default for Overlays {
+    fn default() -> Self {
+        Self {
+            great_circles: false,
+            face_tint: false,
+            grid: false,
+            vectors: true,
+            axes: true,
+            probe: true,
+        }
+    }
+}
+
+impl Overlays {
+    /// Nothing over the pictures.
+    pub const NONE: Self = Self {
+        great_circles: false,
+        face_tint: false,
+        grid: false,
+        vectors: false,
+        axes: false,
+        probe: false,
+    };
+}
+
+/// The panel of one mapping.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PanelState {
+    /// The mapping it unfolds.
+    pub mapping: MappingId,
+    /// Shown at all.
+    pub open: bool,
+    /// Magnification; 1 fits the whole picture into the panel.
+    pub zoom: f32,
+    /// Picture coordinates of the panel's middle.
+    pub center: [f32; 2],
+}
+
+/// Smallest and largest magnification of a panel: at the largest, a texel of the finest map fills the panel.
+pub const ZOOM_RANGE: (f32, f32) = (0.5, 4096.0);
+/// Stops of exposure that the slider offers: the range of an HDR photograph.
+pub const EXPOSURE_RANGE: (f32, f32) = (-12.0, 12.0);
+/// Texels of a map: from a cube of 16 x 16 faces to one of 2048 x 2048.
+pub const TEXEL_BUDGET_RANGE: (u32, u32) = (6 * 16 * 16, 6 * 2048 * 2048);
+
+impl PanelState {
+    /// A panel that shows the whole picture.
+    pub fn new(mapping: MappingId, open: bool) -> Self {
+        Self { mapping, open, zoom: 1.0, center: [0.5, 0.5] }
+    }
+}
+
+/// What the inspector shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct InspectorState {
+    /// Shown at all.
+    pub open: bool,
+    /// The mapping whose steps are shown.
+    pub mapping: MappingId,
+    /// Numbers of which type.
+    pub precision: Precision,
+    /// The seed's own numbers beside the app's.
+    pub conventions: bool,
+    /// The equation as printed beside the right one.
+    pub errata: bool,
+}
+
+impl Default for InspectorState {
+    fn default() -> Self {
+        Self {
+            open: true,
+            mapping: MappingId::Ccm,
+            precision: Precision::F32,
+            conventions: false,
+            errata: false,
+        }
+    }
+}
+
+/// The number type of the steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Precision {
+    /// Single precision, as on the GPU.
+    F32,
+    /// Double precision, the reference.
+    F64,
+    /// Both beside one another.
+    Both,
+}
+
+impl Default for AppState {
+    fn default() -> Self {
+        // The seeds' six, which come first in the registry, are open.
+        let panels =
+            MappingId::ALL.iter().enumerate().map(|(i, &m)| PanelState::new(m, i < 6)).collect();
+        Self {
+            schema: SCHEMA,
+            environment: Environment::default(),
+            mapping: MappingId::Ccm,
+            compare: None,
+            divider: 0.5,
+            object: Object::Teapot,
+            camera: Camera { yaw_rad: 0.5, pitch_rad: 0.3, ..Camera::default() },
+            exposure_ev: 0.0,
+            tone: ToneCurve::default(),
+            texel_budget: 6 * 512 * 512,
+            overlays: Overlays::default(),
+            probe: unit([0.45, 0.75, -0.35]),
+            probe_follows: true,
+            eye_ray: None,
+            panels,
+            arrangement: None,
+            inspector: InspectorState::default(),
+        }
+    }
+}
+
+/// Why a scene file cannot be shown.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// Not JSON, or not a scene.
+    #[error("this is not a Sixfold scene: {0}")]
+    NotAScene(#[from] serde_json::Error),
+    /// Written by a later version.
+    #[error("the scene has form {found}, this program knows {SCHEMA}: open it with a newer Sixfold")]
+    TooNew {
+        /// The form found.
+        found: u32,
+    },
+}
+
+impl AppState {
+    /// The state as the text of a scene file.
+    pub fn to_json(&self) -> String {
+        // A struct of plain data with string keys always serialises.
+        serde_json::to_string_pretty(self).unwrap_or_default()
+    }
+
+    /// A state from the text of a scene file; every number is brought into its range.
+    pub fn from_json(text: &str) -> Result<Self, SceneError> {
+        #[derive(Deserialize)]
+        struct Head {
+            schema: u32,
+        }
+        let head: Head = serde_json::from_str(text)?;
+        if head.schema > SCHEMA {
+            return Err(SceneError::TooNew { found: head.schema });
+        }
+        Ok(serde_json::from_str::<Self>(text)?.sanitized())
+    }
+
+    /// The nearest state that makes sense: files and arguments may hold any number.
+    pub fn sanitized(mut self) -> Self {
+        let finite = |x: f32, or: f32| if x.is_finite() { x } else { or };
+        self.schema = SCHEMA;
+        self.divider = finite(self.divider, 0.5).clamp(0.0, 1.0);
+        self.camera = self.camera.sanitized();
+        self.exposure_ev = finite(self.exposure_ev, 0.0).clamp(EXPOSURE_RANGE.0, EXPOSURE_RANGE.1);
+        self.texel_budget = self.texel_budget.clamp(TEXEL_BUDGET_RANGE.0, TEXEL_BUDGET_RANGE.1);
+        self.probe = unit(self.probe);
+        self.eye_ray = self.eye_ray.filter(|uv| uv.iter().all(|c| (0.0..=1.0).contains(c)));
+        // One panel for each mapping, whatever the file holds.
+        let saved = std::mem::take(&mut self.panels);
+        self.panels = MappingId::ALL
+            .iter()
+            .map(|&mapping| {
+                let found = saved.iter().find(|p| p.mapping == mapping);
+                let mut panel = found.copied().unwrap_or(PanelState::new(mapping, false));
+                panel.zoom = finite(panel.zoom, 1.0).clamp(ZOOM_RANGE.0, ZOOM_RANGE.1);
+                panel.center = panel.center.map(|c| finite(c, 0.5).clamp(0.0, 1.0));
+                panel
+            })
+            .collect();
+        self
+    }
+
+    /// The panel of a mapping.
+    pub fn panel(&self, mapping: MappingId) -> PanelState {
+        let found = self.panels.iter().find(|p| p.mapping == mapping);
+        found.copied().unwrap_or(PanelState::new(mapping, false))
+    }
+
+    /// The panel of a mapping, to be changed.
+    pub fn panel_mut(&mut self, mapping: MappingId) -> Option<&mut PanelState> {
+        self.panels.iter_mut().find(|p| p.mapping == mapping)
+    }
+
+    /// The probe in f64.
+    pub fn probe_f64(&self) -> Vec3<f64> {
+        let [x, y, z] = self.probe.map(f64::from);
+        Vec3::new(x, y, z)
+    }
+}
+
+/// The unit vector of a direction; +z for a vector that is none.
+pub fn unit(dir: [f32; 3]) -> [f32; 3] {
+    let dir = Vec3::new(dir[0], dir[1], dir[2]);
+    match dir.scaled_direction() {
+        Some(d) => Vec3::<f64>::from_f64(d.to_f64()).normalized().to_array().map(|c| c as f32),
+        None => [0.0, 0.0, 1.0],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_survives_its_file() {
+        let state = AppState { compare: Some(MappingId::Eac), ..AppState::default() };
+        assert_eq!(AppState::from_json(&state.to_json()).unwrap(), state);
+        let other = AppState { compare: Some(MappingId::Cube), ..state.clone() };
+        assert_ne!(AppState::from_json(&other.to_json()).unwrap(), state);
+    }
+
+    #[test]
+    fn numbers_out_of_range_are_brought_back() {
+        let mut state = AppState::default();
+        state.probe = [f32::NAN, 0.0, 0.0];
+        state.texel_budget = u32::MAX;
+        state.divider = f32::INFINITY;
+        state.panels.clear();
+        let state = state.sanitized();
+        assert_eq!(state.probe, [0.0, 0.0, 1.0]);
+        assert_eq!(state.texel_budget, TEXEL_BUDGET_RANGE.1);
+        assert_eq!(state.divider, 0.5);
+        assert_eq!(state.panels.len(), MappingId::ALL.len());
+    }
+
+    #[test]
+    fn a_later_form_and_a_foreign_file_are_refused_with_a_reason() {
+        let later = AppState::from_json(r#"{"schema": 99}"#).unwrap_err().to_string();
+        assert!(later.contains("99"), "{later}");
+        assert!(AppState::from_json("{}").is_err());
+        assert!(AppState::from_json("P6 1 1").is_err());
+        assert!(AppState::from_json(r#"{"schema": 1}"#).is_ok());
+    }
+
+    #[test]
+    fn ties_survive_normalising() {
+        for pattern in crate::math::inputs::SIGN_PATTERNS {
+            let dir = unit(pattern.map(f32::from));
+            let size: Vec<f32> = dir.iter().map(|c| c.abs()).filter(|c| *c > 0.0).collect();
+            assert!(size.windows(2).all(|w| w[0] == w[1]), "{pattern:?} became {dir:?}");
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! The probed texel's colour, read back from the device without waiting for it.
+
+use crate::gpu::{Renderer, TexelRead};
+use crate::mapping::MappingId;
+
+/// Which texel of which drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TexelKey {
+    /// The map.
+    pub mapping: MappingId,
+    /// Its chart.
+    pub chart: u32,
+    /// Column and row.
+    pub texel: [u32; 2],
+    /// Maps drawn so far: after another one the colour may be another.
+    pub bakes: u64,
+}
+
+/// The last colour that came back, and the one that is on its way.
+#[derive(Default)]
+pub struct TexelColor {
+    known: Option<(TexelKey, [f32; 3])>,
+    coming: Option<(TexelKey, TexelRead)>,
+}
+
+impl TexelColor {
+    /// Linear colour of the texel, or `None` while it is on its way.
+    pub fn get(&mut self, renderer: &Renderer, key: TexelKey) -> Option<[f32; 3]> {
+        if let Some((wanted, read)) = &self.coming
+            && let Some(answer) = read.poll()
+        {
+            // After a fault the texel shows as unknown; the renderer reports the fault itself.
+            self.known = answer.ok().map(|color| (*wanted, color));
+            self.coming = None;
+        }
+        let known = self.known.filter(|(known, _)| *known == key).map(|(_, color)| color);
+        if known.is_none() && self.coming.is_none() {
+            let read = renderer.begin_read_texel(key.mapping, key.chart, key.texel).ok();
+            self.coming = read.map(|read| (key, read));
+        }
+        known
+    }
+
+    /// A colour is on its way: look again soon.
+    pub fn is_waiting(&self) -> bool {
+        self.coming.is_some()
+    }
+}

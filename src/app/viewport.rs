@@ -1,0 +1,190 @@
+//! The viewport: the mirror object before its surroundings, turned by the pointer, with its marks.
+
+use egui::{Align2, Color32, PointerButton, Pos2, Rect, Response, Sense, Ui, pos2, vec2};
+use glam::Vec3;
+
+use super::action::Action;
+use super::marks::{arrow, edged_line, edged_text};
+use super::model::Model;
+use super::theme;
+use super::views::ViewKey;
+use crate::gpu::GREAT_CIRCLE_COLORS;
+use crate::mapping::cube_face::GREAT_CIRCLES;
+use crate::optics::reflect;
+use crate::scene::{Camera, Hit};
+
+/// Radians that the camera turns for a drag over one point.
+const ORBIT_RAD_PER_POINT: f32 = 0.008;
+/// Points around the divider in which it can be grabbed.
+const DIVIDER_GRIP: f32 = 8.0;
+
+/// Shows the viewport in all the space there is.
+pub fn viewport_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    let rect = ui.available_rect_before_wrap();
+    if rect.width() < 1.0 || rect.height() < 1.0 {
+        return;
+    }
+    let response = ui.allocate_rect(rect, Sense::click_and_drag());
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::Role::Image, true, "Viewport")
+    });
+    model.view_ui(ui, ViewKey::Viewport, rect);
+    let on_divider = divider_ui(ui, model, rect);
+    if !on_divider {
+        pointer(ui, model, rect, &response);
+    }
+    paint_marks(ui, model, rect);
+}
+
+fn aspect(rect: Rect) -> f32 {
+    rect.width() / rect.height()
+}
+
+/// What the pointer does: turns, zooms, and finds directions.
+fn pointer(ui: &Ui, model: &mut Model<'_>, rect: Rect, response: &Response) {
+    if response.dragged_by(PointerButton::Primary) {
+        let drag = response.drag_delta() * ORBIT_RAD_PER_POINT;
+        if drag != egui::Vec2::ZERO {
+            model.push(Action::Orbit { dx_rad: drag.x, dy_rad: drag.y });
+        }
+        return;
+    }
+    if response.contains_pointer() {
+        let scroll = ui.input(|i| i.smooth_scroll_delta.y);
+        if scroll != 0.0 {
+            model.push(Action::Zoom((scroll * 0.004).exp()));
+        }
+    }
+    let Some(pos) = response.hover_pos().or(response.interact_pointer_pos()) else { return };
+    let moved = ui.input(|i| i.pointer.delta() != egui::Vec2::ZERO || i.pointer.any_pressed());
+    let dragged = response.dragged_by(PointerButton::Secondary);
+    let clicked = response.clicked();
+    let wanted = clicked || dragged || (model.state.probe_follows && moved);
+    if wanted && rect.contains(pos) {
+        let uv = [(pos.x - rect.min.x) / rect.width(), (pos.y - rect.min.y) / rect.height()];
+        let dir = looked_up(model, uv, aspect(rect));
+        model.push(Action::SetProbe { dir: dir.to_array(), eye_ray: Some(uv) });
+    }
+    if clicked && model.state.probe_follows {
+        model.push(Action::FollowPointer(false));
+    }
+}
+
+/// The direction that the map is asked for at a place of the viewport: mirrored where the object is, else straight on.
+fn looked_up(model: &Model<'_>, uv: [f32; 2], aspect: f32) -> Vec3 {
+    let ray = model.state.camera.ray((uv[0], uv[1]), aspect);
+    match model.target.cast(ray) {
+        Some(hit) => reflect(ray.dir, hit.normal),
+        None => ray.dir,
+    }
+}
+
+/// The divider between the two mappings; true while the pointer is on it.
+fn divider_ui(ui: &mut Ui, model: &mut Model<'_>, rect: Rect) -> bool {
+    let Some(compare) = model.state.compare else { return false };
+    let x = rect.min.x + model.state.divider * rect.width();
+    let grip = Rect::from_min_max(
+        pos2(x - DIVIDER_GRIP, rect.min.y),
+        pos2(x + DIVIDER_GRIP, rect.max.y),
+    );
+    let response = ui.interact(grip, ui.scope_id().with("divider"), Sense::drag());
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::Role::Slider, true, "Divider between the mappings")
+    });
+    let response = response.on_hover_and_drag_cursor(egui::CursorIcon::ResizeHorizontal);
+    if response.dragged()
+        && let Some(pos) = response.interact_pointer_pos()
+    {
+        model.push(Action::SetDivider((pos.x - rect.min.x) / rect.width()));
+    }
+    let painter = ui.painter_at(rect);
+    let line = vec![pos2(x, rect.min.y), pos2(x, rect.max.y)];
+    edged_line(&painter, line, 1.5, Color32::WHITE);
+    for (mapping, anchor, side) in
+        [(model.state.mapping, Align2::RIGHT_TOP, -1.0), (compare, Align2::LEFT_TOP, 1.0)]
+    {
+        let [w, h] = model.map_size(mapping);
+        let charts = mapping.info().chart_count();
+        let text = format!("{}  {charts} × {w}×{h}", mapping.info().name);
+        edged_text(&painter, pos2(x + 8.0 * side, rect.min.y + 6.0), anchor, &text, Color32::WHITE);
+    }
+    response.hovered() || response.dragged()
+}
+
+/// Axes, vectors and the legend of the circles.
+fn paint_marks(ui: &Ui, model: &Model<'_>, rect: Rect) {
+    let painter = ui.painter_at(rect);
+    let overlays = model.state.overlays;
+    if overlays.axes {
+        paint_axes(&painter, model.state.camera, rect);
+    }
+    if overlays.vectors {
+        paint_vectors(&painter, model, rect);
+    }
+    if overlays.great_circles {
+        for (i, (name, _)) in GREAT_CIRCLES.iter().enumerate() {
+            let [r, g, b] = GREAT_CIRCLE_COLORS[i];
+            let at = rect.min + vec2(12.0 + 18.0 * i as f32, 8.0);
+            let color = Color32::from_rgb(r, g, b);
+            edged_text(&painter, at, Align2::CENTER_TOP, &name.to_string(), color);
+        }
+    }
+    if model.surroundings.is_none() {
+        let text = "Loading the environment …";
+        edged_text(&painter, rect.center(), Align2::CENTER_CENTER, text, Color32::WHITE);
+    }
+}
+
+/// The world's axes in the lower left corner, as the camera sees them from far away.
+fn paint_axes(painter: &egui::Painter, camera: Camera, rect: Rect) {
+    const LENGTH: f32 = 30.0;
+    let origin = rect.left_bottom() + vec2(52.0, -52.0);
+    let frame = camera.ray_frame(1.0);
+    let (right, up) = (frame.right.normalize_or_zero(), frame.up.normalize_or_zero());
+    let mut axes: Vec<(f32, Pos2, usize)> = [Vec3::X, Vec3::Y, Vec3::Z]
+        .iter()
+        .enumerate()
+        .map(|(i, axis)| {
+            let tip = vec2(axis.dot(right), -axis.dot(up)) * LENGTH;
+            (axis.dot(frame.forward), origin + tip, i)
+        })
+        .collect();
+    // The farthest first, so that nearer arrows lie over it.
+    axes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    for (_, tip, i) in axes {
+        arrow(painter, origin, tip, theme::AXES[i], ["x", "y", "z"][i]);
+    }
+}
+
+/// The incident, normal and reflected vectors where the pointer met the object.
+fn paint_vectors(painter: &egui::Painter, model: &Model<'_>, rect: Rect) {
+    const LENGTH: f32 = 0.6;
+    let Some([u, v]) = model.state.eye_ray else { return };
+    let camera = model.state.camera;
+    let ray = camera.ray((u, v), aspect(rect));
+    let Some(Hit { point, normal, .. }) = model.target.cast(ray) else { return };
+    let screen = |point: Vec3| {
+        let (u, v) = camera.project(point, aspect(rect))?;
+        Some(rect.min + vec2(u * rect.width(), v * rect.height()))
+    };
+    let Some(at) = screen(point) else { return };
+    // Seen along the eye's own ray the incident vector is a point; it is drawn from where the eye ray enters the picture's
+    // near half, a little to the side of it.
+    let reflected = reflect(ray.dir, normal);
+    let arrows = [
+        (screen(point - ray.dir * LENGTH), at, "incident"),
+        (Some(at), screen(point + normal * LENGTH).unwrap_or(at), "normal"),
+        (Some(at), screen(point + reflected * LENGTH).unwrap_or(at), "reflected"),
+    ];
+    for (i, (from, to, name)) in arrows.into_iter().enumerate() {
+        let Some(from) = from else { continue };
+        if i == 0 {
+            painter.circle_filled(at, 4.0, theme::VECTORS[0]);
+            let side = at + vec2(-10.0, 12.0);
+            edged_text(painter, side, Align2::RIGHT_CENTER, name, theme::VECTORS[0]);
+            edged_line(painter, vec![from, to], 2.0, theme::VECTORS[0]);
+        } else {
+            arrow(painter, from, to, theme::VECTORS[i], name);
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The explorer in a real window.
+
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+
+use super::explorer::Explorer;
+use super::state::AppState;
+use super::{files, theme};
+use crate::gpu::{Gpu, context};
+
+/// Why the window did not open or had to close.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The file given is no scene and no environment.
+    #[error("{0}")]
+    Scene(String),
+    /// No window or no device.
+    #[error("no window could be opened ({0}); a display and a Vulkan or OpenGL driver are needed, and `sixfold render OUT.png` draws without a display")]
+    Window(String),
+    /// The device was lost.
+    #[error("the graphics device was lost; {0}; start Sixfold again with that file")]
+    DeviceLost(String),
+}
+
+/// Opens the explorer on the default scene or on a file, and returns when the window is closed.
+///
+/// # Errors
+/// See [`RunError`].
+pub fn run(file: Option<&Path>) -> Result<(), RunError> {
+    let state = match file {
+        Some(path) => files::open_scene(path).map_err(RunError::Scene)?,
+        None => AppState::default(),
+    };
+    let lost = Arc::new(Mutex::new(None));
+    let report = Arc::clone(&lost);
+    let created = eframe::run_native(
+        "Sixfold",
+        options(),
+        Box::new(move |creation| {
+            theme::install(&creation.egui_ctx);
+            let state_of_device =
+                creation.wgpu_render_state.as_ref().ok_or("the window has no wgpu device")?;
+            let gpu = Gpu::from_parts(
+                state_of_device.device.clone(),
+                state_of_device.queue.clone(),
+                state_of_device.adapter.get_info(),
+            );
+            let painter = Arc::clone(&state_of_device.renderer);
+            let explorer = Explorer::new(gpu, painter, state);
+            Ok(Box::new(Window { explorer, lost: report }))
+        }),
+    );
+    created.map_err(|error| RunError::Window(one_line(&error.to_string())))?;
+    match lost.lock().ok().and_then(|mut why| why.take()) {
+        Some(why) => Err(RunError::DeviceLost(why)),
+        None => Ok(()),
+    }
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn options() -> eframe::NativeOptions {
+    let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
+    setup.device_descriptor = Arc::new(context::device_descriptor);
+    eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Sixfold")
+            .with_app_id("sixfold")
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([480.0, 320.0])
+            .with_drag_and_drop(true),
+        renderer: eframe::Renderer::Wgpu,
+        wgpu_options: egui_wgpu::WgpuConfiguration {
+            wgpu_setup: egui_wgpu::WgpuSetup::CreateNew(setup),
+            ..Default::default()
+        },
+        ..Default::default()
+    }
+}
+
+struct Window {
+    explorer: Explorer,
+    lost: Arc<Mutex<Option<String>>>,
+}
+
+impl eframe::App for Window {
+    fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
+        if self.explorer.is_lost() {
+            if let Ok(mut lost) = self.lost.lock()
+                && lost.is_none()
+            {
+                *lost = Some(self.explorer.rescue());
+            }
+            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            return;
+        }
+        self.explorer.logic(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        self.explorer.ui(ui);
+    }
+}
