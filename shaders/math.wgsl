@@ -1,4 +1,5 @@
-// Numbers: twin of src/math. The constants in capitals are written in front of this file by src/gpu/shader.rs.
+// Numbers: twin of src/math. The constants in capitals and the three *_series are written
+// in front of this file by src/gpu/shader.rs.
 //
 // No built-in inverse trigonometric function is called: the language allows them 4096 ULP. There is no test for NaN or
 // infinity either, because an implementation may assume that neither occurs; such a vector is refused by its size.
@@ -64,11 +65,7 @@ fn hypotenuse(a: f32, b: f32) -> f32 {
 // Arctangent of t in radians, |t| <= 1.
 fn atan_unit(t: f32) -> f32 {
     let s = t * t;
-    var sum = 0.0;
-    for (var i = ATAN_COUNT; i > 0; i--) {
-        sum = sum * s + ATAN_COEFFICIENTS[i - 1];
-    }
-    return t + t * s * sum;
+    return t + t * s * atan_series(s);
 }
 
 // Angle of the point (x, y) in radians, in [-pi, pi]; 0 at the origin.
@@ -94,15 +91,7 @@ fn sin_cos_turns(turns: f32) -> vec2f {
     let quarters = round(turns * 4.0);
     let f = turns * 4.0 - quarters;
     let s = f * f;
-    var sin_sum = 0.0;
-    for (var i = SIN_QUARTER_COUNT; i > 0; i--) {
-        sin_sum = sin_sum * s + SIN_QUARTER_COEFFICIENTS[i - 1];
-    }
-    var cos_sum = 0.0;
-    for (var i = COS_QUARTER_COUNT; i > 0; i--) {
-        cos_sum = cos_sum * s + COS_QUARTER_COEFFICIENTS[i - 1];
-    }
-    let angle = vec2f(f * sin_sum, 1.0 + s * cos_sum);
+    let angle = vec2f(f * sin_quarter_series(s), 1.0 + s * cos_quarter_series(s));
     switch i32(quarters) & 3 {
         case 1: { return vec2f(angle.y, -angle.x); }
         case 2: { return -angle; }

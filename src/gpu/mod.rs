@@ -1,1 +1,6 @@
-//! The renderer.
+//! The renderer: the device, the shaders put together from the mappings, and what runs on them.
+
+pub mod context;
+pub mod shader;
+
+pub use context::{Gpu, GpuError};
