@@ -91,7 +91,7 @@ fn sin_cos_turns(turns: f32) -> vec2f {
     let quarters = round(turns * 4.0);
     let f = turns * 4.0 - quarters;
     let s = f * f;
-    let angle = vec2f(f * sin_quarter_series(s), 1.0 + s * cos_quarter_series(s));
+    let angle = vec2f(f + f * sin_quarter_series(s), 1.0 + s * cos_quarter_series(s));
     switch i32(quarters) & 3 {
         case 1: { return vec2f(angle.y, -angle.x); }
         case 2: { return -angle; }

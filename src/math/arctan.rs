@@ -1,33 +1,37 @@
 //! The project's own arctangent, sine and cosine for f32, shared by the CPU and every shader.
 //!
 //! The shading language allows a built-in atan2 an error of 4096 ULP and a built-in sine 4.9e-4; a software driver was
-//! seen to be off by 3.9e-4 rad in asin. These polynomials use only additions, products and one division, which the
-//! language rounds correctly, so the CPU and every adapter agree to a few ULP.
+//! seen to be off by 3.9e-4 rad in asin. These polynomials use only additions and products, which the language rounds
+//! correctly, so the CPU and every adapter agree to a few ULP. A driver may fuse a product and a sum into one rounding:
+//! the errors are stated for none fused and for all fused.
+//!
+//! The coefficients are derived, the number of them is chosen and the errors are measured by
+//! `cargo run --release --example derive_arctangent`; `tests/arctangent.rs` holds this file to it.
 
-/// Coefficients c of atan t = t + t s (c0 + c1 s + ... ), s = t^2, |t| <= 1: degree 17 in t.
+/// Coefficients c of atan t = t + t s (c0 + c1 s + ...), s = t^2, |t| <= 1, lowest power first: degree 17 in t.
+///
+/// Degree 15 errs by 2.6 ULP; degree 19 gains 0.1 ULP, but its atan 1 is not the float nearest to pi/4.
 pub const ATAN_COEFFICIENTS: [f32; 8] = [
-    -0.333_331_53,
-    0.199_937_73,
-    -0.142_110_56,
-    0.106_660_03,
-    -0.075_522_12,
-    0.043_211_83,
-    -0.016_367_91,
-    0.002_920_688,
+    -0.33333153,
+    0.19993767,
+    -0.14211002,
+    0.106657684,
+    -0.07551656,
+    0.043204635,
+    -0.016363103,
+    0.0029193931,
 ];
 
-/// Coefficients of sin(f pi/2) = f (c0 + c1 f^2 + ...), |f| <= 1/2.
-pub const SIN_QUARTER_COEFFICIENTS: [f32; 5] = [
-    1.570_796_3,
-    -0.645_964_1,
-    0.079_692_63,
-    -0.004_681_754,
-    0.000_160_441_2,
-];
+/// Coefficients c of sin(f pi/2) = f + f (c0 + c1 s + ...), s = f^2, |f| <= 1/2, lowest power first: degree 7 in f.
+///
+/// The sum starts with f itself, so that c0 = pi/2 - 1 and the roundings of the rest weigh a third: 1.2 ULP, not 1.6.
+/// One more coefficient gains nothing.
+pub const SIN_QUARTER_COEFFICIENTS: [f32; 4] = [0.5707963, -0.6459626, 0.07967021, -0.004574429];
 
-/// Coefficients of cos(f pi/2) = 1 + f^2 (c0 + c1 f^2 + ...), |f| <= 1/2.
-pub const COS_QUARTER_COEFFICIENTS: [f32; 4] =
-    [-1.233_700_6, 0.253_669_5, -0.020_863_48, 0.000_919_260_3];
+/// Coefficients c of cos(f pi/2) = 1 + s (c0 + c1 s + ...), s = f^2, |f| <= 1/2, lowest power first: degree 8 in f.
+///
+/// Degree 6 errs by 1.6 ULP; one more coefficient gains nothing.
+pub const COS_QUARTER_COEFFICIENTS: [f32; 4] = [-1.2337005, 0.25366855, -0.020855596, 0.0008944864];
 
 /// Value of the polynomial with the given coefficients, lowest power first (Horner's scheme).
 fn horner(coefficients: &[f32], x: f32) -> f32 {
@@ -35,17 +39,26 @@ fn horner(coefficients: &[f32], x: f32) -> f32 {
 }
 
 /// Arctangent of t in radians for |t| <= 1.
+///
+/// Largest error over every float of [0, 1]: 1.25 ULP and 7.5e-8 rad (all fused: 1.08 ULP and 6.4e-8 rad). Odd, apart
+/// from the sign of -0; the float nearest to pi/4 at 1, and nowhere above it. A float's value may be one ULP below that
+/// of a smaller float.
 pub fn atan_unit(t: f32) -> f32 {
     let s = t * t;
     t + t * s * horner(&ATAN_COEFFICIENTS, s)
 }
 
 /// (sin, cos) of an angle in turns, |turns| <= 2. The reduction to an eighth of a turn is exact.
+///
+/// Largest error over every float of an eighth of a turn: 1.24 ULP and 5.9e-8 in the sine, 1.13 ULP and 6.8e-8 in the
+/// cosine (all fused: 0.99 ULP and 4.7e-8, 0.88 ULP and 5.3e-8). Exact at quarter turns. At odd eighths both are the
+/// float nearest to the square root of 1/2 with their signs, so it does not matter that the shading language rounds
+/// halves to even and Rust away from zero.
 pub fn sin_cos_turns(turns: f32) -> (f32, f32) {
     let quarters = (turns * 4.0).round();
     let f = turns * 4.0 - quarters;
     let s = f * f;
-    let sin = f * horner(&SIN_QUARTER_COEFFICIENTS, s);
+    let sin = f + f * horner(&SIN_QUARTER_COEFFICIENTS, s);
     let cos = 1.0 + s * horner(&COS_QUARTER_COEFFICIENTS, s);
     turn_by_quarters(quarters as i32, sin, cos)
 }
