@@ -60,7 +60,7 @@ fn is_below_zero(x: f32) -> bool {
 
 fn hypotenuse(a: f32, b: f32) -> f32 {
     let large = max(abs(a), abs(b));
-    // Below the normal numbers a division may do anything, and the sum of squares would not show.
+    // Below the normal numbers a division may do anything, and an error of that size does not show.
     if large < SMALLEST_NORMAL {
         return large;
     }
@@ -84,12 +84,12 @@ fn atan_unit(t: f32) -> f32 {
     return t + t * s * atan_series(s);
 }
 
-// Angle of the point (x, y) in radians, in [-pi, pi]; 0 at the origin.
+// Angle of the point (x, y) in radians, in [-pi, pi]; 0 at the origin and below the normal numbers.
 fn angle_of(y: f32, x: f32) -> f32 {
     let ay = abs(y);
     let ax = abs(x);
     let large = max(ax, ay);
-    if large <= 0.0 {
+    if large < SMALLEST_NORMAL {
         return 0.0;
     }
     var angle = atan_unit(min(min(ax, ay) / large, 1.0));
