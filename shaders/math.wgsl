@@ -1,4 +1,5 @@
-// Numbers: twin of src/math. The constants in capitals are written in front of this file by src/gpu/shader.rs.
+// Numbers: twin of src/math. The constants in capitals and the three *_series are written
+// in front of this file by src/gpu/shader.rs.
 //
 // No built-in inverse trigonometric function is called: the language allows them 4096 ULP. There is no test for NaN or
 // infinity either, because an implementation may assume that neither occurs; such a vector is refused by its size.
@@ -52,31 +53,43 @@ fn sign_or_one(x: f32) -> f32 {
     return select(1.0, -1.0, x < 0.0);
 }
 
+// x < 0, asked of the bits: right below the normal numbers too, where a comparison may see zero.
+fn is_below_zero(x: f32) -> bool {
+    return bitcast<u32>(x) > 0x80000000u;
+}
+
 fn hypotenuse(a: f32, b: f32) -> f32 {
     let large = max(abs(a), abs(b));
-    if large <= 0.0 {
-        return 0.0;
+    // Below the normal numbers a division may do anything, and an error of that size does not show.
+    if large < SMALLEST_NORMAL {
+        return large;
     }
     let ratio = min(abs(a), abs(b)) / large;
     return large * sqrt(1.0 + ratio * ratio);
 }
 
+// p at length 1, or (1, 0) for the origin and below the normal numbers, where a division may do anything.
+fn unit_in_plane(p: vec2f) -> vec2f {
+    let large = max(abs(p.x), abs(p.y));
+    if large < SMALLEST_NORMAL {
+        return vec2f(1.0, 0.0);
+    }
+    let q = p / large;
+    return q / sqrt(q.x * q.x + q.y * q.y);
+}
+
 // Arctangent of t in radians, |t| <= 1.
 fn atan_unit(t: f32) -> f32 {
     let s = t * t;
-    var sum = 0.0;
-    for (var i = ATAN_COUNT; i > 0; i--) {
-        sum = sum * s + ATAN_COEFFICIENTS[i - 1];
-    }
-    return t + t * s * sum;
+    return t + t * s * atan_series(s);
 }
 
-// Angle of the point (x, y) in radians, in [-pi, pi]; 0 at the origin.
+// Angle of the point (x, y) in radians, in [-pi, pi]; 0 at the origin and below the normal numbers.
 fn angle_of(y: f32, x: f32) -> f32 {
     let ay = abs(y);
     let ax = abs(x);
     let large = max(ax, ay);
-    if large <= 0.0 {
+    if large < SMALLEST_NORMAL {
         return 0.0;
     }
     var angle = atan_unit(min(min(ax, ay) / large, 1.0));
@@ -94,15 +107,7 @@ fn sin_cos_turns(turns: f32) -> vec2f {
     let quarters = round(turns * 4.0);
     let f = turns * 4.0 - quarters;
     let s = f * f;
-    var sin_sum = 0.0;
-    for (var i = SIN_QUARTER_COUNT; i > 0; i--) {
-        sin_sum = sin_sum * s + SIN_QUARTER_COEFFICIENTS[i - 1];
-    }
-    var cos_sum = 0.0;
-    for (var i = COS_QUARTER_COUNT; i > 0; i--) {
-        cos_sum = cos_sum * s + COS_QUARTER_COEFFICIENTS[i - 1];
-    }
-    let angle = vec2f(f + f * sin_sum, 1.0 + s * cos_sum);
+    let angle = vec2f(f + f * sin_quarter_series(s), 1.0 + s * cos_quarter_series(s));
     switch i32(quarters) & 3 {
         case 1: { return vec2f(angle.y, -angle.x); }
         case 2: { return -angle; }
