@@ -159,11 +159,11 @@ pub fn draw(
     for pass in 0..LAYOUT_PASSES {
         check_cancelled(progress)?;
         progress.step(pass, LAYOUT_PASSES + 1);
-        let drawn = ctx.run_ui(raw_input(size, scale), |ui| match request.what {
+        let mut drawn = ctx.run_ui(raw_input(size, scale), |ui| match request.what {
             What::Window => explorer.ui(ui),
             what => explorer.view_alone_ui(ui, what),
         });
-        canvas.keep_textures(gpu, &drawn);
+        canvas.keep_textures(gpu, &mut drawn.textures_delta);
         output = Some(drawn);
     }
     if let Some(error) = explorer.messages().iter().find(|m| m.is_error) {
@@ -229,13 +229,14 @@ impl Canvas {
     }
 
     /// Takes over the fonts and images that a pass has changed.
-    fn keep_textures(&self, gpu: &Gpu, output: &egui::FullOutput) {
+    fn keep_textures(&self, gpu: &Gpu, delta: &mut egui::TexturesDelta) {
         let mut painter = self.painter.write();
-        for (id, deltas) in &output.textures_delta.set {
-            for delta in deltas {
-                painter.update_texture(&gpu.device, &gpu.queue, *id, delta);
+        for (id, changes) in &delta.set {
+            for change in changes {
+                painter.update_texture(&gpu.device, &gpu.queue, *id, change);
             }
         }
+        delta.clear();
     }
 
     fn paint(
