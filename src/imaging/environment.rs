@@ -23,10 +23,10 @@ pub const FACE_COLORS: [[u8; 3]; 6] = [
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Environment {
-    /// Photograph: DEFAULT.
+    /// Photograph of a covered yard: straight lines and things to recognise in every direction.
     #[default]
     Courtyard,
-    /// Photograph: SUN.
+    /// Photograph of a quay with the sun low over the water.
     Sunset,
     /// Six coloured faces with names and arrows.
     LabelledFaces,

@@ -16,10 +16,10 @@ const STEP_DEG: f64 = 15.0;
 const NUMBER_STEP_DEG: f64 = 30.0;
 const LINE_HALF_WIDTH_DEG: f64 = 0.14;
 const BOLD_HALF_WIDTH_DEG: f64 = 0.4;
-const NUMBER_HALF_WIDTH_DEG: f64 = 0.24;
+const NUMBER_HALF_WIDTH_DEG: f64 = 0.3;
 /// Height of a number, and its distance from its two lines.
-const NUMBER_DEG: f64 = 3.2;
-const GAP_DEG: f64 = 1.2;
+const NUMBER_DEG: f64 = 4.2;
+const GAP_DEG: f64 = 1.4;
 /// Meridians other than the four great ones end here, before they run together.
 const LAST_PARALLEL_DEG: f64 = 75.0;
 

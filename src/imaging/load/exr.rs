@@ -10,6 +10,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use exr::block::UncompressedBlock;
 use exr::block::chunk::{Chunk, CompressedBlock};
 use exr::block::reader::ChunksReader;
+use exr::compression::Compression;
 use exr::math::Vec2;
 use exr::meta::attribute::{ChannelList, SampleType};
 use exr::meta::header::Header;
@@ -196,7 +197,10 @@ fn is_full_size(chunk: &Chunk) -> bool {
 /// The blocks of a batch, one thread each; a panic ends in an error.
 fn unpacked(batch: Vec<Chunk>, meta: &MetaData) -> Result<Vec<UncompressedBlock>, LoadProblem> {
     let unpack = |chunk: Chunk| {
-        caught(|| UncompressedBlock::decompress_chunk(chunk, meta, false).map_err(damaged))
+        caught(|| {
+            judge_dwa(&chunk, &meta.headers[chunk.layer_index])?;
+            UncompressedBlock::decompress_chunk(chunk, meta, false).map_err(damaged)
+        })
     };
     std::thread::scope(|scope| {
         let threads: Vec<_> = batch
@@ -212,6 +216,47 @@ fn unpacked(batch: Vec<Chunk>, meta: &MetaData) -> Result<Vec<UncompressedBlock>
             })
             .collect()
     })
+}
+
+/// A DWA block starts with eleven 64-bit counts, and the crate allocates what they say (up to 2^63 bytes): refuses those
+/// that no block of this size can need.
+fn judge_dwa(chunk: &Chunk, header: &Header) -> Result<(), LoadProblem> {
+    /// Uncompressed bytes of the unknown and run-length sections, raw bytes of the latter, numbers of the 16-bit AC and DC
+    /// coefficients.
+    const UNPACKED_COUNTS: [usize; 5] = [1, 6, 7, 8, 9];
+    let data = match &chunk.compressed_block {
+        CompressedBlock::Tile(block) => &block.compressed_pixels_le,
+        CompressedBlock::ScanLine(block) => &block.compressed_pixels_le,
+        _ => return Ok(()),
+    };
+    let tile = header
+        .get_block_data_indices(&chunk.compressed_block)
+        .map_err(damaged)?;
+    let area = header
+        .get_absolute_block_pixel_coordinates(tile)
+        .map_err(damaged)?;
+    let Vec2(width, height) = area.size;
+    let texel = bytes_per_texel(&header.channels);
+    let is_raw = data.len() as u64 == width as u64 * height as u64 * texel;
+    if is_raw
+        || !matches!(
+            header.compression,
+            Compression::DWAA(_) | Compression::DWAB(_)
+        )
+    {
+        return Ok(());
+    }
+    // Cosine transforms work on whole 8 x 8 squares; run lengths can make data longer by a half at most.
+    let squares = (width as u64).div_ceil(8) * (height as u64).div_ceil(8);
+    let most = squares * 64 * texel * 2;
+    let (counts, _) = data.as_chunks::<8>();
+    for count in UNPACKED_COUNTS
+        .iter()
+        .filter_map(|&index| counts.get(index))
+    {
+        within("one DWA section", u64::from_le_bytes(*count), most)?;
+    }
+    Ok(())
 }
 
 struct Picture {
