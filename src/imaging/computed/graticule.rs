@@ -1,6 +1,6 @@
 //! Meridians and parallels.
 
-use super::strokes::{Strokes, text_width};
+use super::strokes::Strokes;
 use super::{blend, coverage};
 
 const PAPER: [f32; 3] = [0.82, 0.80, 0.74];
@@ -16,17 +16,19 @@ const STEP_DEG: f64 = 15.0;
 const NUMBER_STEP_DEG: f64 = 30.0;
 const LINE_HALF_WIDTH_DEG: f64 = 0.14;
 const BOLD_HALF_WIDTH_DEG: f64 = 0.4;
-const NUMBER_HALF_WIDTH_DEG: f64 = 0.3;
+const NUMBER_HALF_WIDTH_DEG: f64 = 0.34;
 /// Height of a number, and its distance from its two lines.
 const NUMBER_DEG: f64 = 4.2;
 const GAP_DEG: f64 = 1.4;
+/// Paper around the digits.
+const HALO_DEG: f64 = 0.5;
 /// Meridians other than the four great ones end here, before they run together.
 const LAST_PARALLEL_DEG: f64 = 75.0;
 
 pub(super) struct Graticule {
     /// -180, -150, .. 150.
     longitudes: Vec<Strokes>,
-    /// -60, -30, 30, 60 at 0, 1, 3, 4.
+    /// -60, -30, 0, 30, 60 (the equator has the longitudes instead).
     latitudes: Vec<Strokes>,
 }
 
@@ -69,27 +71,28 @@ impl Graticule {
             coverage(lat.abs(), BOLD_HALF_WIDTH_DEG, texel),
         );
 
-        let amount = |strokes: Option<&Strokes>, east: f64, north: f64| {
-            let p = [east * cos_lat - GAP_DEG, GAP_DEG - north];
-            let reach = NUMBER_HALF_WIDTH_DEG + texel;
+        // A number lies flat at its own height: one scale for its whole width, so that it does not lean.
+        let with_number = |strokes: Option<&Strokes>, scale: f64, east: f64, north: f64, ink| {
+            let p = [east * scale - GAP_DEG, GAP_DEG - north];
+            let reach = NUMBER_HALF_WIDTH_DEG + HALO_DEG + texel;
             let distance = strokes.map_or(f64::INFINITY, |strokes| strokes.distance(p, reach));
-            coverage(distance, NUMBER_HALF_WIDTH_DEG, texel)
+            // Paper around the strokes keeps the thin lines off the digits.
+            let halo = coverage(distance, NUMBER_HALF_WIDTH_DEG + HALO_DEG, texel);
+            let amount = coverage(distance, NUMBER_HALF_WIDTH_DEG, texel);
+            blend(blend(color, paper, halo), ink, amount)
         };
-        let top = GAP_DEG + NUMBER_DEG + 1.0;
+        let top = GAP_DEG + NUMBER_DEG + GAP_DEG;
         if (0.0..top).contains(&lat) {
             let (index, east) = cell(lon + 180.0, NUMBER_STEP_DEG);
-            let ink = amount(self.longitudes.get(index), east, lat);
-            color = blend(color, PRIME, ink);
-        } else {
-            let (index, north) = cell(lat + 60.0, NUMBER_STEP_DEG);
-            let (_, east) = cell(lon + 180.0, 90.0);
-            let widest = text_width("-60°", NUMBER_DEG) + GAP_DEG + 1.0;
-            if lat > -61.0 && north < top && east * cos_lat < widest {
-                let ink = amount(self.latitudes.get(index), east, north);
-                color = blend(color, EQUATOR, ink);
-            }
+            return with_number(self.longitudes.get(index), 1.0, east, lat, PRIME);
         }
-        color
+        let (index, north) = cell(lat + 60.0, NUMBER_STEP_DEG);
+        let (_, east) = cell(lon + 180.0, 90.0);
+        if lat < -60.0 || north > top {
+            return color;
+        }
+        let scale = (lat - north + top / 2.0).to_radians().cos();
+        with_number(self.latitudes.get(index), scale, east, north, EQUATOR)
     }
 }
 
@@ -97,7 +100,7 @@ fn distance_to_step(degrees: f64, step: f64) -> f64 {
     (degrees - (degrees / step).round() * step).abs()
 }
 
-/// Which step a non-negative angle lies in and how far; -1 degree already counts to the last step for what hangs over.
+/// Which step a non-negative angle lies in, and how far into it.
 fn cell(degrees: f64, step: f64) -> (usize, f64) {
     let index = (degrees / step).floor().max(0.0);
     (index as usize, degrees - index * step)

@@ -74,8 +74,7 @@ fn rasterize(
     }
     progress.enter(Stage::Computing);
     let (rows, width) = (height as usize, 2 * height as usize);
-    let mut pixels = super::load::reserved(rows * width)?;
-    pixels.resize(rows * width, [0.0; 3]);
+    let mut pixels = super::load::zeroed([0.0; 3], rows * width)?;
 
     // Longitudes repeat in every row.
     let u_at = |x: usize| (x as f64 + 0.5) / width as f64;
@@ -96,7 +95,8 @@ fn rasterize(
     let workers = std::thread::available_parallelism()
         .map_or(1, usize::from)
         .min(rows);
-    let mut hands: Vec<Vec<(usize, &mut [[f32; 3]])>> = Vec::new();
+    type Hand<'a> = Vec<(usize, &'a mut [[f32; 3]])>;
+    let mut hands: Vec<Hand> = Vec::new();
     hands.resize_with(workers, Vec::new);
     for (y, row) in pixels.chunks_mut(width).enumerate() {
         hands[y % workers].push((y, row));

@@ -26,9 +26,9 @@ impl Strokes {
     pub(super) fn line(mut self, points: &[[f64; 2]]) -> Self {
         for pair in points.windows(2) {
             self.segments.push([pair[0], pair[1]]);
-            for axis in 0..2 {
-                self.low[axis] = self.low[axis].min(pair[0][axis]).min(pair[1][axis]);
-                self.high[axis] = self.high[axis].max(pair[0][axis]).max(pair[1][axis]);
+            for [x, y] in [pair[0], pair[1]] {
+                self.low = [self.low[0].min(x), self.low[1].min(y)];
+                self.high = [self.high[0].max(x), self.high[1].max(y)];
             }
         }
         self
@@ -87,7 +87,7 @@ impl Strokes {
 }
 
 /// Width of a text of letter height `size`.
-pub(super) fn text_width(text: &str, size: f64) -> f64 {
+fn text_width(text: &str, size: f64) -> f64 {
     let letters = text.chars().count();
     (letters.saturating_sub(1) as f64 * ADVANCE + LETTER_WIDTH) * size
 }

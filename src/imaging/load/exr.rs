@@ -16,7 +16,7 @@ use exr::meta::attribute::{ChannelList, SampleType};
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData};
 
-use super::{Format, Job, LoadProblem, MOST_HEIGHT, MOST_WIDTH, reserved};
+use super::{Format, Job, LoadProblem, MOST_HEIGHT, MOST_WIDTH, zeroed};
 
 /// All channels of all layers together, unpacked: eight channels of 32 bits at the largest size.
 const MOST_UNPACKED_BYTES: u64 = MOST_WIDTH as u64 * MOST_HEIGHT as u64 * 32;
@@ -42,7 +42,7 @@ pub(super) fn decode(job: &Job) -> Result<Vec<[f32; 3]>, LoadProblem> {
     let mut picture = Picture {
         width: job.width as usize,
         channels,
-        pixels: reserved(job.texels())?,
+        pixels: Vec::new(),
         filled: 0,
     };
     let mut chunks = caught(|| {
@@ -51,7 +51,7 @@ pub(super) fn decode(job: &Job) -> Result<Vec<[f32; 3]>, LoadProblem> {
     })?;
     let meta = chunks.meta_data().clone();
     let total = chunks.expected_chunk_count();
-    picture.pixels.resize(job.texels(), [0.0; 3]);
+    picture.pixels = zeroed([0.0; 3], job.texels())?;
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     let mut done = 0;
     loop {

@@ -121,7 +121,7 @@ fn read_row(data: &mut &[u8], row: &mut [[u8; 4]]) -> Option<()> {
     let first = take4(data)?;
     let [two, also_two, high, low] = first;
     let is_new = two == 2 && also_two == 2 && high < 128;
-    if is_new && usize::from(high) << 8 | usize::from(low) == row.len() {
+    if is_new && usize::from(u16::from_be_bytes([high, low])) == row.len() {
         read_components(data, row)
     } else {
         read_pixels(data, first, row)

@@ -6,7 +6,7 @@ use image::codecs::jpeg::JpegDecoder;
 use image::{ColorType, ImageDecoder};
 
 use super::super::srgb::linear_from_srgb8;
-use super::{Format, Job, LoadProblem, reserved};
+use super::{Format, Job, LoadProblem, reserved, zeroed};
 
 /// The decoder cannot be stopped, so a cancelled job ends before or after it.
 pub(super) fn decode(job: &Job) -> Result<Vec<[f32; 3]>, LoadProblem> {
@@ -25,8 +25,7 @@ pub(super) fn decode(job: &Job) -> Result<Vec<[f32; 3]>, LoadProblem> {
             });
         }
     };
-    let mut raw = reserved(job.texels() * channels)?;
-    raw.resize(job.texels() * channels, 0);
+    let mut raw = zeroed(0, job.texels() * channels)?;
     decoder.read_image(&mut raw).map_err(damaged)?;
     let mut pixels = reserved(job.texels())?;
     for (y, row) in raw.chunks_exact(job.width as usize * channels).enumerate() {

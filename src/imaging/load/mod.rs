@@ -337,3 +337,10 @@ pub(super) fn reserved<T>(count: usize) -> Result<Vec<T>, LoadProblem> {
         })?;
     Ok(vector)
 }
+
+/// `count` zeros, or an error where `vec!` would end the process. The system hands out zeroed pages only when they are
+/// written, so a short file that declares much costs little.
+pub(super) fn zeroed<T: Clone>(zero: T, count: usize) -> Result<Vec<T>, LoadProblem> {
+    drop(reserved::<T>(count)?);
+    Ok(vec![zero; count])
+}

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 
 use super::super::srgb::{FROM_8, FROM_16};
-use super::{Format, Job, LoadProblem, reserved};
+use super::{Format, Job, LoadProblem, reserved, zeroed};
 
 /// What the decoder may hold beside the picture: an interlaced one is decoded whole, at most 8 bytes a texel.
 const MOST_DECODER_BYTES: usize = super::MOST_WIDTH as usize * super::MOST_HEIGHT as usize * 8;
@@ -28,8 +28,7 @@ pub(super) fn decode(job: &Job) -> Result<Vec<[f32; 3]>, LoadProblem> {
         let size = reader
             .output_buffer_size()
             .ok_or_else(|| damaged("it is too large"))?;
-        let mut raw = reserved(size)?;
-        raw.resize(size, 0);
+        let mut raw = zeroed(0, size)?;
         let frame = reader.next_frame(&mut raw).map_err(damaged)?;
         for (y, row) in raw.chunks_exact(frame.line_size.max(1)).enumerate() {
             push_row(&mut pixels, row, samples, wide);
