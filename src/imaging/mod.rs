@@ -1,1 +1,23 @@
-//! Environments as pictures.
+//! Environments as pictures: reading, checking, computing, writing.
+//!
+//! - [`Environment`]: what can be shown, and [`Environment::image`], which makes its picture;
+//! - [`load`]: a latlong picture from a file, refused before any allocation when it declares too much;
+//! - [`Image`]: RGB in linear light; [`sanitize`] makes every value finite and remembers what it replaced;
+//! - [`computed`]: pictures that show where every direction went;
+//! - [`png_out`] and [`atomic`]: pictures to files, whole or not at all.
+
+pub mod atomic;
+pub mod computed;
+mod environment;
+mod image;
+pub mod load;
+pub mod png_out;
+mod progress;
+pub mod sanitize;
+pub mod srgb;
+
+pub use environment::{Environment, FACE_COLORS};
+pub use image::{Image, ImageSizeError};
+pub use load::{LoadError, LoadProblem, Loaded};
+pub use progress::{Progress, Stage};
+pub use sanitize::{BadTexels, Originals};

@@ -1,0 +1,74 @@
+//! Files that appear whole or not at all.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// Why nothing was written.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// There is a file already.
+    #[error("the file exists already; choose another name or allow replacing it: {}", .0.display())]
+    Exists(PathBuf),
+    /// The path names no file.
+    #[error("this names no file; give a file name: {}", .0.display())]
+    NoFileName(PathBuf),
+    /// The system refused.
+    #[error("nothing was written ({cause}); check the folder, the rights and the space: {}", path.display())]
+    Io {
+        /// What the system said.
+        cause: io::Error,
+        /// The file that was to be written.
+        path: PathBuf,
+    },
+}
+
+/// Writes `bytes` to `path`: a temporary file beside it, flushed to the disk, then renamed. Whoever looks at `path` sees the
+/// old state or all of the new one. An existing file is replaced only with `force`; without it the last step itself fails
+/// when a file has appeared meanwhile.
+///
+/// # Errors
+/// See [`WriteError`]; the temporary file is gone then.
+pub fn write_atomically(path: &Path, force: bool, bytes: &[u8]) -> Result<(), WriteError> {
+    if path.file_name().is_none() {
+        return Err(WriteError::NoFileName(path.to_owned()));
+    }
+    if !force && path.symlink_metadata().is_ok() {
+        return Err(WriteError::Exists(path.to_owned()));
+    }
+    let failed = |cause: io::Error| {
+        if cause.kind() == io::ErrorKind::AlreadyExists {
+            WriteError::Exists(path.to_owned())
+        } else {
+            WriteError::Io {
+                cause,
+                path: path.to_owned(),
+            }
+        }
+    };
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".sixfold-").suffix(".tmp");
+    // Temporary files are private by default; a picture gets the rights that any new file gets.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut temporary = builder.tempfile_in(folder).map_err(failed)?;
+    temporary.write_all(bytes).map_err(failed)?;
+    temporary.as_file().sync_all().map_err(failed)?;
+    let renamed = if force {
+        temporary.persist(path)
+    } else {
+        temporary.persist_noclobber(path)
+    };
+    renamed.map_err(|failure| failed(failure.error))?;
+    // The new name is safe once the folder is; where a folder cannot be opened as a file the rename has to do.
+    if let Ok(folder) = File::open(folder) {
+        folder.sync_all().ok();
+    }
+    Ok(())
+}

@@ -1,0 +1,124 @@
+//! What can be shown: embedded photographs, computed patterns, files.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+use super::Progress;
+use super::computed::{self, Pattern};
+use super::load::{self, LoadError, Loaded};
+
+/// The colours of the six faces +x -x +y -y +z -z as sRGB: three hues of the palette that Okabe and Ito chose for every kind
+/// of colour vision, one pair a hue family, the positive face darker than the negative one.
+pub const FACE_COLORS: [[u8; 3]; 6] = [
+    [0xd5, 0x5e, 0x00], // vermilion
+    [0xe6, 0x9f, 0x00], // orange
+    [0x00, 0x9e, 0x73], // bluish green
+    [0xf0, 0xe4, 0x42], // yellow
+    [0x00, 0x72, 0xb2], // blue
+    [0x56, 0xb4, 0xe9], // sky blue
+];
+
+/// The surroundings that every map stores.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Environment {
+    /// Photograph of a covered yard: straight lines and things to recognise in every direction.
+    #[default]
+    Courtyard,
+    /// Photograph of a quay with the sun low over the water.
+    Sunset,
+    /// Six coloured faces with names and arrows.
+    LabelledFaces,
+    /// Meridians and parallels.
+    Graticule,
+    /// The direction as colour.
+    DirectionColour,
+    /// Icosahedron and dodecahedron.
+    IcosahedronCrosses,
+    /// A latlong picture on disk: HDR, EXR, PNG or JPEG.
+    File(PathBuf),
+}
+
+impl Environment {
+    /// Everything but files, in the order of the menu.
+    pub const ALL_BUILT_IN: [Self; 6] = [
+        Self::Courtyard,
+        Self::Sunset,
+        Self::LabelledFaces,
+        Self::Graticule,
+        Self::DirectionColour,
+        Self::IcosahedronCrosses,
+    ];
+
+    /// What the menu says: a file's own name without its folders.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Courtyard => "Courtyard".to_owned(),
+            Self::Sunset => "Sunset".to_owned(),
+            Self::LabelledFaces => "Labelled faces".to_owned(),
+            Self::Graticule => "Graticule".to_owned(),
+            Self::DirectionColour => "Direction as colour".to_owned(),
+            Self::IcosahedronCrosses => "Icosahedron crosses".to_owned(),
+            Self::File(path) => path
+                .file_name()
+                .unwrap_or(path.as_os_str())
+                .to_string_lossy()
+                .into_owned(),
+        }
+    }
+
+    /// The name on the command line and in scenes, kebab-case; for a file its path.
+    pub fn id(&self) -> String {
+        match self {
+            Self::Courtyard => "courtyard".to_owned(),
+            Self::Sunset => "sunset".to_owned(),
+            Self::LabelledFaces => "labelled-faces".to_owned(),
+            Self::Graticule => "graticule".to_owned(),
+            Self::DirectionColour => "direction-colour".to_owned(),
+            Self::IcosahedronCrosses => "icosahedron-crosses".to_owned(),
+            Self::File(path) => path.display().to_string(),
+        }
+    }
+
+    /// The built-in environment of that id; anything else is the path of a file.
+    pub fn from_id(id: &str) -> Self {
+        Self::ALL_BUILT_IN
+            .into_iter()
+            .find(|environment| environment.id() == id)
+            .unwrap_or_else(|| Self::File(PathBuf::from(id)))
+    }
+
+    /// The latlong picture, computed ones at [`computed::DEFAULT_HEIGHT`].
+    ///
+    /// # Errors
+    /// When a file does not open or the job is cancelled.
+    pub fn image(&self, progress: &Progress) -> Result<Loaded, LoadError> {
+        self.image_at(computed::DEFAULT_HEIGHT, progress)
+    }
+
+    /// As [`Environment::image`] with another height for the computed ones; photographs and files have their own.
+    ///
+    /// # Errors
+    /// As [`Environment::image`].
+    pub fn image_at(&self, height: u32, progress: &Progress) -> Result<Loaded, LoadError> {
+        let embedded = |bytes| load::load_bytes(bytes, &self.id(), progress);
+        let pattern = |pattern| {
+            computed::compute(pattern, height, progress)
+                .map(|image| Loaded::from_image(image, progress))
+                .map_err(|problem| LoadError {
+                    problem,
+                    name: self.id(),
+                })
+        };
+        match self {
+            Self::Courtyard => embedded(include_bytes!("../../assets/courtyard.exr")),
+            Self::Sunset => embedded(include_bytes!("../../assets/sunset.exr")),
+            Self::LabelledFaces => pattern(Pattern::LabelledFaces),
+            Self::Graticule => pattern(Pattern::Graticule),
+            Self::DirectionColour => pattern(Pattern::DirectionColor),
+            Self::IcosahedronCrosses => pattern(Pattern::IcosahedronCrosses),
+            Self::File(path) => load::load(path, progress),
+        }
+    }
+}

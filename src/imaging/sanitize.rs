@@ -1,0 +1,109 @@
+//! Every value finite and in the range of half floats, and a record of what was not.
+//!
+//! One NaN texel spreads through every level of a mip pyramid, so nothing is built from raw data.
+
+use super::Image;
+
+/// The largest half float: the maps on the GPU are rgba16float.
+pub const LARGEST: f32 = 65504.0;
+
+/// At most this many originals are kept (16 bytes each): a file of nothing but NaN must not double its memory.
+pub const MOST_ORIGINALS: usize = 1 << 20;
+
+/// How many texels had at least one component that was ... (a texel may count in several).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BadTexels {
+    /// not a number (replaced by 0);
+    pub nan: u64,
+    /// infinite (+ replaced by 65504, - by 0);
+    pub infinite: u64,
+    /// finite and below zero (replaced by 0);
+    pub negative: u64,
+    /// finite and above 65504 (replaced by that).
+    pub too_bright: u64,
+}
+
+impl BadTexels {
+    /// Whether nothing was replaced.
+    pub fn is_clean(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// For the status bar: `3 NaN, 1 infinite, 2 negative, 0 too bright`, or nothing when clean.
+    pub fn summary(&self) -> Option<String> {
+        (!self.is_clean()).then(|| {
+            format!(
+                "{} NaN, {} infinite, {} negative, {} too bright",
+                self.nan, self.infinite, self.negative, self.too_bright
+            )
+        })
+    }
+}
+
+/// What replaced texels held, for the readout.
+#[derive(Clone, Debug, Default)]
+pub struct Originals {
+    /// (index, colour), index ascending.
+    kept: Vec<(u32, [f32; 3])>,
+    dropped: u64,
+}
+
+impl Originals {
+    /// The colour that texel `index` (of [`Image::pixels`]) had in the file, when it was replaced and kept.
+    pub fn get(&self, index: usize) -> Option<[f32; 3]> {
+        let index = u32::try_from(index).ok()?;
+        let at = self
+            .kept
+            .binary_search_by_key(&index, |entry| entry.0)
+            .ok()?;
+        Some(self.kept[at].1)
+    }
+
+    /// How many originals are kept.
+    pub fn len(&self) -> usize {
+        self.kept.len()
+    }
+
+    /// Whether none is kept.
+    pub fn is_empty(&self) -> bool {
+        self.kept.is_empty()
+    }
+
+    /// How many replaced texels lie beyond [`MOST_ORIGINALS`] and are forgotten.
+    pub fn dropped(&self) -> u64 {
+        self.dropped
+    }
+}
+
+/// Counts and replaces every component that is NaN, infinite, negative or above [`LARGEST`]. -0 stays.
+pub fn sanitize(image: &mut Image) -> (BadTexels, Originals) {
+    let (mut bad, mut originals) = (BadTexels::default(), Originals::default());
+    for (index, pixel) in image.pixels_mut().iter_mut().enumerate() {
+        // The usual texel costs three comparisons; NaN fails them.
+        if pixel.iter().all(|&c| (0.0..=LARGEST).contains(&c)) {
+            continue;
+        }
+        let original = *pixel;
+        let any = |test: fn(f32) -> bool| u64::from(original.iter().any(|&c| test(c)));
+        bad.nan += any(f32::is_nan);
+        bad.infinite += any(f32::is_infinite);
+        bad.negative += any(|c| c.is_finite() && c < 0.0);
+        bad.too_bright += any(|c| c.is_finite() && c > LARGEST);
+        *pixel = original.map(replaced);
+        match u32::try_from(index) {
+            Ok(index) if originals.kept.len() < MOST_ORIGINALS => {
+                originals.kept.push((index, original));
+            }
+            _ => originals.dropped += 1,
+        }
+    }
+    (bad, originals)
+}
+
+fn replaced(c: f32) -> f32 {
+    if c.is_nan() {
+        0.0
+    } else {
+        c.clamp(0.0, LARGEST)
+    }
+}

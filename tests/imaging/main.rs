@@ -1,0 +1,8 @@
+//! Pictures in and out: orientation, every format, bad values, hostile files, scenes in PNG text.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod computed;
+mod files;
+mod fixtures;
+mod formats;
+mod hostile;
