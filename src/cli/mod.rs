@@ -1,1 +1,145 @@
 //! The command line.
+//!
+//! Standard output carries data only; messages go to standard error, one line each. Exit status: 0 done, 1 the work
+//! failed, 2 wrong usage. What needs the window or the GPU is not done here but handed back as a [`Request`].
+
+mod csv;
+mod eval;
+mod maps;
+mod plan;
+mod render;
+
+pub use render::{Picture, RenderOptions};
+
+use std::ffi::OsString;
+use std::io::{self, BufWriter, Write};
+use std::path::PathBuf;
+
+use clap::error::ErrorKind;
+use clap::{Parser, Subcommand};
+
+/// Everything went well.
+pub const DONE: u8 = 0;
+/// The work failed.
+pub const FAILED: u8 = 1;
+/// The command line was wrong.
+pub const USAGE: u8 = 2;
+
+/// What is left to do after the command line has been read.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// Nothing: the command has run, the process ends with this status.
+    Done(u8),
+    /// Open the explorer, on a saved scene or on the default.
+    Explore {
+        /// An existing scene file.
+        scene: Option<PathBuf>,
+    },
+    /// Draw one picture into a file.
+    Render(Box<RenderOptions>),
+}
+
+/// Explore environment mappings: one direction, followed through every map at once
+///
+/// Without a command it opens the explorer.
+#[derive(Debug, Parser)]
+#[command(name = "sixfold", version, args_conflicts_with_subcommands = true)]
+struct Cli {
+    /// A scene to open in the explorer: a saved scene file, or a picture that the explorer exported
+    scene: Option<PathBuf>,
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// List the mappings
+    Maps(maps::MapsOptions),
+    /// Directions from standard input to chart coordinates, or back
+    Eval(plan::EvalOptions),
+    /// Draw one picture without opening a window
+    Render(Box<RenderOptions>),
+}
+
+/// Why a command ended early. Each message is one line.
+#[derive(Debug, thiserror::Error)]
+enum CliError {
+    #[error(transparent)]
+    Usage(#[from] plan::PlanError),
+    #[error("standard input cannot be read: {0}")]
+    Read(io::Error),
+    #[error("standard output cannot be written: {0}")]
+    Write(io::Error),
+}
+
+/// Reads the command line (`args` begins with the program's name) and runs the command that it names, unless that needs
+/// more than this layer may use.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> Request {
+    match Cli::try_parse_from(args) {
+        Ok(cli) => obey(cli),
+        Err(error) => Request::Done(explain(&error)),
+    }
+}
+
+/// Prints `sixfold: message` to standard error.
+pub fn complain(message: impl std::fmt::Display) {
+    // Where standard error is closed too, the exit status has to say it all.
+    let _ = writeln!(io::stderr(), "sixfold: {message}");
+}
+
+fn obey(cli: Cli) -> Request {
+    match cli.command {
+        Some(Command::Maps(options)) => finish(|out| maps::run(&options, out)),
+        Some(Command::Eval(options)) => {
+            finish(|out| eval::run(&options, io::stdin().lock(), out, io::stderr().lock()))
+        }
+        Some(Command::Render(options)) => Request::Render(options),
+        None => match cli.scene {
+            Some(path) if !path.is_file() => {
+                complain(format_args!(
+                    "neither a command nor a scene file; `sixfold --help` lists the commands: {}",
+                    path.display()
+                ));
+                Request::Done(FAILED)
+            }
+            scene => Request::Explore { scene },
+        },
+    }
+}
+
+/// Runs a command on the buffered standard output; its `Ok` holds the exit status.
+fn finish(command: impl FnOnce(&mut BufWriter<io::StdoutLock>) -> Result<u8, CliError>) -> Request {
+    let mut out = BufWriter::with_capacity(1 << 16, io::stdout().lock());
+    let result = command(&mut out).and_then(|status| {
+        out.flush().map_err(CliError::Write)?;
+        Ok(status)
+    });
+    // What could not be written must not be tried again when the buffer is dropped.
+    let _ = out.into_parts();
+    Request::Done(match result {
+        Ok(status) => status,
+        // The reader has what it wanted (`| head`).
+        Err(CliError::Write(error)) if error.kind() == io::ErrorKind::BrokenPipe => DONE,
+        Err(error) => {
+            complain(&error);
+            if matches!(error, CliError::Usage(_)) {
+                USAGE
+            } else {
+                FAILED
+            }
+        }
+    })
+}
+
+/// Prints what clap has to say: help and version to standard output, the rest to standard error.
+fn explain(error: &clap::Error) -> u8 {
+    if error.kind() == ErrorKind::ValueValidation {
+        // The value's own error says what to do; the usage that clap adds only hides it.
+        let text = error.render().to_string();
+        let line = text.lines().next().unwrap_or_default();
+        complain(line.strip_prefix("error: ").unwrap_or(line));
+    } else {
+        let _ = error.print();
+    }
+    if error.use_stderr() { USAGE } else { DONE }
+}

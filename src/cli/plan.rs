@@ -1,0 +1,171 @@
+//! What `sixfold eval` is asked to compute, checked before the first line is read.
+
+use super::csv::Precision;
+use crate::mapping::{
+    ChartPoint, Convention, EvaluatorInfo, MappingId, MappingInfo, SHARED_EVALUATORS,
+};
+use crate::math::Vec3;
+
+/// Options of `sixfold eval`.
+#[derive(Debug, clap::Args)]
+pub(super) struct EvalOptions {
+    /// Id of the mapping (`sixfold maps` lists them)
+    pub(super) map: MappingId,
+    /// Read chart,u,v and write unit directions
+    #[arg(long)]
+    pub(super) inverse: bool,
+    /// Return a publication's own numbers for the same map
+    #[arg(long, value_name = "NAME")]
+    pub(super) convention: Option<String>,
+    /// Compute it another way: `f32`, `reference`, or one of the mapping's own
+    #[arg(long, value_name = "NAME")]
+    pub(super) evaluator: Option<String>,
+    /// Number type of input and output
+    #[arg(long, value_enum, default_value = "f32")]
+    pub(super) precision: Precision,
+}
+
+/// Why a command line cannot be obeyed. Each message says what can be asked for.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum PlanError {
+    #[error("`{map}` has no convention `{name}`; it has: {known}")]
+    UnknownConvention {
+        map: MappingId,
+        name: String,
+        known: String,
+    },
+    #[error("`{map}` has no evaluator `{name}`; it has: {known}")]
+    UnknownEvaluator {
+        map: MappingId,
+        name: String,
+        known: String,
+    },
+    #[error("the convention `{0}` has no inverse; leave --inverse out")]
+    ConventionWithoutInverse(&'static str),
+    #[error("the evaluator `{0}` has no inverse; leave --inverse out")]
+    EvaluatorWithoutInverse(&'static str),
+    #[error("the evaluator `{0}` computes the app's own coordinates; leave --convention out")]
+    EvaluatorWithoutConvention(&'static str),
+    #[error("the evaluator `{0}` computes in f32; leave --precision f64 out, or take `reference`")]
+    SingleOnly(&'static str),
+}
+
+/// The formula that is asked for.
+#[derive(Clone, Copy)]
+enum Formula {
+    Mapping(MappingId),
+    Convention(&'static Convention),
+    Own(&'static EvaluatorInfo),
+}
+
+/// What is computed, and in which number type.
+pub(super) struct Plan {
+    /// The mapping.
+    pub(super) info: &'static MappingInfo,
+    formula: Formula,
+    /// Compute in f32; else in f64, rounding at the end to what the file holds.
+    single: bool,
+}
+
+const SINGLE: &str = SHARED_EVALUATORS[0].0;
+const REFERENCE: &str = SHARED_EVALUATORS[1].0;
+
+impl Plan {
+    pub(super) fn new(options: &EvalOptions) -> Result<Self, PlanError> {
+        let map = options.map;
+        let info = map.info();
+        let mut formula = Formula::Mapping(map);
+        if let Some(name) = &options.convention {
+            let found = info.convention(name);
+            let convention = found.ok_or_else(|| PlanError::UnknownConvention {
+                map,
+                name: name.clone(),
+                known: list(info.conventions.iter().map(|c| c.id)),
+            })?;
+            if options.inverse && convention.inverse.is_none() {
+                return Err(PlanError::ConventionWithoutInverse(convention.id));
+            }
+            formula = Formula::Convention(convention);
+        }
+        let double = options.precision == Precision::F64;
+        let single = match options.evaluator.as_deref() {
+            None => !double,
+            Some(REFERENCE) => false,
+            Some(SINGLE) if double => return Err(PlanError::SingleOnly(SINGLE)),
+            Some(SINGLE) => true,
+            Some(name) => {
+                let found = info.evaluators.iter().find(|own| own.id == name);
+                let shared = SHARED_EVALUATORS.iter().map(|(id, _)| *id);
+                let own = found.ok_or_else(|| PlanError::UnknownEvaluator {
+                    map,
+                    name: name.to_owned(),
+                    known: list(shared.chain(info.evaluators.iter().map(|own| own.id))),
+                })?;
+                if options.inverse {
+                    return Err(PlanError::EvaluatorWithoutInverse(own.id));
+                }
+                if options.convention.is_some() {
+                    return Err(PlanError::EvaluatorWithoutConvention(own.id));
+                }
+                if double {
+                    return Err(PlanError::SingleOnly(own.id));
+                }
+                formula = Formula::Own(own);
+                true
+            }
+        };
+        Ok(Self {
+            info,
+            formula,
+            single,
+        })
+    }
+
+    /// Names of the three numbers of a chart point.
+    pub(super) fn columns(&self) -> [&'static str; 3] {
+        match self.formula {
+            Formula::Convention(convention) => convention.columns,
+            _ => ["chart", "u", "v"],
+        }
+    }
+
+    /// The chart point of a direction; `None` where the formula finds none.
+    pub(super) fn forward(&self, dir: [f64; 3]) -> Option<ChartPoint<f64>> {
+        let (single, double) = (Vec3::<f32>::from_f64(dir), Vec3::<f64>::from_f64(dir));
+        let point = match (self.formula, self.single) {
+            (Formula::Mapping(map), false) => return map.forward(double),
+            (Formula::Convention(convention), false) => return convention.forward.1(double),
+            (Formula::Mapping(map), true) => map.forward(single),
+            (Formula::Convention(convention), true) => convention.forward.0(single),
+            (Formula::Own(evaluator), _) => (evaluator.forward)(single),
+        };
+        point.map(ChartPoint::to_f64)
+    }
+
+    /// The direction of a chart point; `None` off the chart.
+    pub(super) fn inverse(&self, point: ChartPoint<f64>) -> Option<[f64; 3]> {
+        let rounded = ChartPoint::new(point.chart, point.u as f32, point.v as f32);
+        match (self.formula, self.single) {
+            (Formula::Mapping(map), true) => map.inverse(rounded).map(Vec3::to_f64),
+            (Formula::Mapping(map), false) => map.inverse(point).map(Vec3::to_f64),
+            (Formula::Convention(convention), single) => {
+                let (in_f32, in_f64) = convention.inverse?;
+                if single {
+                    in_f32(rounded).map(Vec3::to_f64)
+                } else {
+                    in_f64(point).map(Vec3::to_f64)
+                }
+            }
+            (Formula::Own(_), _) => None,
+        }
+    }
+}
+
+fn list(ids: impl Iterator<Item = &'static str>) -> String {
+    let ids: Vec<&str> = ids.collect();
+    if ids.is_empty() {
+        "none".to_owned()
+    } else {
+        ids.join(", ")
+    }
+}

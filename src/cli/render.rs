@@ -1,0 +1,109 @@
+//! `sixfold render`: what picture is asked for. Drawing it is the explorer's work.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use crate::mapping::{MappingId, UnknownMapping};
+use crate::scene::Object;
+
+/// Largest width and height of a picture, in pixels.
+pub const LARGEST_PX: u32 = 8192;
+
+/// Options of `sixfold render`. What is `None` stays as the scene has it.
+#[derive(Clone, Debug, PartialEq, clap::Args)]
+pub struct RenderOptions {
+    /// The picture to write
+    #[arg(value_name = "OUT.png", value_parser = png_path)]
+    pub out: PathBuf,
+    /// A saved scene to draw; else the scene that the explorer opens with
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
+    /// What to draw: window, viewport, or panel:MAP
+    #[arg(long, default_value = "window")]
+    pub what: Picture,
+    /// Width and height in pixels, at most 8192 each
+    #[arg(long, value_name = "WxH", default_value = "1280x800", value_parser = size_px)]
+    pub size: [u32; 2],
+    /// The mapping that object and sky look up (`sixfold maps` lists them)
+    #[arg(long, value_name = "MAP")]
+    pub map: Option<MappingId>,
+    /// A second mapping, right of the divider
+    #[arg(long, value_name = "MAP")]
+    pub compare: Option<MappingId>,
+    /// Name of a built-in environment, or a latlong picture file
+    #[arg(long, value_name = "NAME|FILE")]
+    pub environment: Option<String>,
+    /// The object that mirrors it: sphere, torus, rounded-cube, teapot
+    #[arg(long, value_name = "NAME", value_parser = object)]
+    pub object: Option<Object>,
+    /// Leave out what is drawn over the picture: axes, great circles, vectors, marks
+    #[arg(long = "no-overlays", action = clap::ArgAction::SetFalse)]
+    pub overlays: bool,
+    /// Replace an existing file
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Which part of the explorer a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Picture {
+    /// The whole window.
+    Window,
+    /// The object before its environment.
+    Viewport,
+    /// One mapping's panel.
+    Panel(MappingId),
+}
+
+/// No part of the explorer has this name.
+#[derive(Debug, thiserror::Error)]
+pub enum UnknownPicture {
+    /// The part's own name.
+    #[error("cannot draw `{0}`; it can be window, viewport or panel:MAP")]
+    Part(String),
+    /// The mapping after `panel:`.
+    #[error(transparent)]
+    Mapping(#[from] UnknownMapping),
+}
+
+impl FromStr for Picture {
+    type Err = UnknownPicture;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Ok(match text.split_once(':') {
+            None if text == "window" => Self::Window,
+            None if text == "viewport" => Self::Viewport,
+            Some(("panel", map)) => Self::Panel(map.parse()?),
+            _ => return Err(UnknownPicture::Part(text.to_owned())),
+        })
+    }
+}
+
+fn png_path(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_png = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("png"));
+    is_png
+        .then_some(path)
+        .ok_or_else(|| "pictures are written as PNG: the name must end in .png".to_owned())
+}
+
+fn size_px(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| {
+        let side = text.parse().ok()?;
+        (1..=LARGEST_PX).contains(&side).then_some(side)
+    };
+    let size = text.split_once(['x', 'X']);
+    size.and_then(|(width, height)| Some([side(width)?, side(height)?]))
+        .ok_or_else(|| format!("must be WIDTHxHEIGHT, like 1280x800, 1 to {LARGEST_PX} each"))
+}
+
+fn object(text: &str) -> Result<Object, String> {
+    let id = |object: &Object| object.name().replace(' ', "-");
+    let found = Object::ALL.into_iter().find(|object| id(object) == text);
+    found.ok_or_else(|| {
+        let names: Vec<String> = Object::ALL.iter().map(id).collect();
+        format!("the objects are {}", names.join(", "))
+    })
+}
