@@ -1,4 +1,4 @@
-// Light from a direction, out of the mapping's own map.
+// Light from a direction, out of the mapping's own map. What is in capitals is written in front by src/gpu/kit.rs.
 
 @group(0) @binding(1) var map: texture_2d_array<f32>;
 @group(0) @binding(2) var map_sampler: sampler;
@@ -24,10 +24,14 @@ struct Tangents {
 }
 
 // Differences of the inverse, taken towards the middle, so that they never leave the chart. No coordinate is ever
-// differentiated across a border: that is what draws lines along seams elsewhere.
-fn chart_tangents(p: ChartPoint, size: vec2f) -> Tangents {
+// differentiated across a border: that is what draws lines along seams elsewhere. `dir` is the unit direction of p.
+fn chart_tangents(p: ChartPoint, dir: vec3f, size: vec2f) -> Tangents {
     let inwards = vec2f(select(-1.0, 1.0, p.u < 0.5), select(-1.0, 1.0, p.v < 0.5));
-    let here = map_inverse(p);
+    var here = dir;
+    if !MAP_COVERS_SPHERE {
+        // The inverse may return the other direction that shares the texel.
+        here = map_inverse(p);
+    }
     let right = map_inverse(ChartPoint(p.chart, p.u + inwards.x / size.x, p.v)) - here;
     let down = map_inverse(ChartPoint(p.chart, p.u, p.v + inwards.y / size.y)) - here;
     return Tangents(right * inwards.x, down * inwards.y);

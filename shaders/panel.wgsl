@@ -7,8 +7,6 @@ struct Panel {
     background: vec4f,
     // Width and height of the target in pixels, the tone curve.
     screen: vec4f,
-    // Above 0 when drawn: great circles, tint of the face, lines of equal u and v.
-    overlays: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> panel: Panel;
@@ -65,21 +63,17 @@ fn panel_fragment(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let light = map_light(ChartPoint(chart, crisp.x, crisp.y), size, level);
     var color = display_from_light(light, panel.background.w, u32(panel.screen.z));
 
-    if panel.overlays.x > 0.0 || panel.overlays.y > 0.0 {
-        let dir = map_inverse(ChartPoint(chart, uv.x, uv.y));
-        if panel.overlays.y > 0.0 {
-            color = paint_face_tint(color, dir);
-        }
-        if panel.overlays.z > 0.0 {
-            color = paint_grid(color, uv.x, uv.y, abs(pixel));
-        }
-        if panel.overlays.x > 0.0 {
-            let right = map_inverse(ChartPoint(chart, uv.x + pixel.x, uv.y)) - dir;
-            let down = map_inverse(ChartPoint(chart, uv.x, uv.y + pixel.y)) - dir;
-            color = paint_great_circles(color, dir, right, down);
-        }
-    } else if panel.overlays.z > 0.0 {
+    let dir = map_inverse(ChartPoint(chart, uv.x, uv.y));
+    if SHOW_FACE_TINT {
+        color = paint_face_tint(color, dir);
+    }
+    if SHOW_GRID {
         color = paint_grid(color, uv.x, uv.y, abs(pixel));
+    }
+    if SHOW_GREAT_CIRCLES {
+        let right = map_inverse(ChartPoint(chart, uv.x + pixel.x, uv.y)) - dir;
+        let down = map_inverse(ChartPoint(chart, uv.x, uv.y + pixel.y)) - dir;
+        color = paint_great_circles(color, dir, right, down);
     }
     return vec4f(mix(background.rgb, color, cover), 1.0);
 }

@@ -10,10 +10,8 @@ struct View {
     forward: vec4f,
     right: vec4f,
     up: vec4f,
-    // The probe's unit direction; w above 0 when it is shown.
+    // The probe's unit direction.
     probe: vec4f,
-    // Above 0 when drawn: great circles, tint of the face, lines of equal u and v.
-    overlays: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -37,14 +35,20 @@ fn seen(dir: vec3f, right: vec3f, down: vec3f) -> vec4f {
         return vec4f(0.0, 0.0, 0.0, 1.0);
     }
     let size = chart_size();
-    let tangents = chart_tangents(p, size);
-    let level = map_level(footprint_rad(right, down), tangents);
+    var tangents: Tangents;
+    if NEEDS_LEVEL || SHOW_GRID {
+        tangents = chart_tangents(p, dir, size);
+    }
+    var level = 0.0;
+    if NEEDS_LEVEL {
+        level = map_level(footprint_rad(right, down), tangents);
+    }
     let light = map_light(p, size, level);
     var color = display_from_light(light, view.eye.w, u32(view.forward.w));
-    if view.overlays.y > 0.0 {
+    if SHOW_FACE_TINT {
         color = paint_face_tint(color, dir);
     }
-    if view.overlays.z > 0.0 {
+    if SHOW_GRID {
         let change = mat2x2f(
             coordinates_in(tangents.right, tangents.down, right),
             coordinates_in(tangents.right, tangents.down, down),
@@ -53,10 +57,10 @@ fn seen(dir: vec3f, right: vec3f, down: vec3f) -> vec4f {
         let v_change = length(vec2f(change[0].y, change[1].y)) / size.y;
         color = paint_grid(color, p.u, p.v, vec2f(u_change, v_change));
     }
-    if view.overlays.x > 0.0 {
+    if SHOW_GREAT_CIRCLES {
         color = paint_great_circles(color, dir, right, down);
     }
-    if view.probe.w > 0.0 {
+    if SHOW_PROBE {
         color = paint_probe(color, view.probe.xyz, dir, right, down);
     }
     return vec4f(color, 1.0);

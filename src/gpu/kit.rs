@@ -1,7 +1,7 @@
 //! What every pass of the renderer needs: layouts, samplers, and short ways to make things.
 
-use super::{Gpu, overlay, shader, tone};
-use crate::mapping::MappingId;
+use super::{Gpu, Overlays, overlay, shader, tone};
+use crate::mapping::{Coverage, MappingId};
 
 /// What the screen gets: sRGB values in a format that does not convert them again.
 pub const VIEW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -44,15 +44,54 @@ pub fn bake_source(id: MappingId) -> String {
     shader::for_mapping(id, BAKE)
 }
 
+/// What a pass that shows a mapping does. Constants of the shader, so that nothing is computed that is not seen, also on
+/// adapters that run both sides of a branch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Variant {
+    /// Paints the great circles.
+    pub great_circles: bool,
+    /// Paints the tint of the face.
+    pub face_tint: bool,
+    /// Paints lines of equal u and v.
+    pub grid: bool,
+    /// Paints the probe.
+    pub probe: bool,
+    /// Some pixel may cover more than a texel: the viewport works out the level for each.
+    pub level: bool,
+}
+
+impl Variant {
+    /// With these overlays, without probe and level.
+    #[must_use]
+    pub fn new(overlays: Overlays) -> Self {
+        Self {
+            great_circles: overlays.great_circles,
+            face_tint: overlays.face_tint,
+            grid: overlays.grid,
+            ..Self::default()
+        }
+    }
+}
+
 /// The whole text of a pass that shows a mapping: [`VIEWPORT`] or [`PANEL`].
 #[must_use]
-pub fn show_source(id: MappingId, pass: &str) -> String {
-    let constants = [
-        tone::wgsl_constants(),
-        overlay::wgsl_constants(),
-        super::map::wgsl_constants(),
+pub fn show_source(id: MappingId, pass: &str, variant: Variant) -> String {
+    let covers_sphere = !matches!(id.info().coverage, Coverage::Hemisphere(_));
+    let switches = [
+        ("MAP_COVERS_SPHERE", covers_sphere),
+        ("SHOW_GREAT_CIRCLES", variant.great_circles),
+        ("SHOW_FACE_TINT", variant.face_tint),
+        ("SHOW_GRID", variant.grid),
+        ("SHOW_PROBE", variant.probe),
+        ("NEEDS_LEVEL", variant.level),
     ];
-    shader::for_mapping(id, &(constants.concat() + pass))
+    let mut text: String = switches
+        .map(|(name, on)| format!("const {name} = {on};\n"))
+        .concat();
+    text += &tone::wgsl_constants();
+    text += &overlay::wgsl_constants();
+    text += &super::map::wgsl_constants();
+    shader::for_mapping(id, &(text + pass))
 }
 
 /// Layouts and samplers that all passes share.

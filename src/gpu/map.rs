@@ -3,7 +3,7 @@
 use super::environment::Environment;
 use super::kit::{Kit, LIGHT_FORMAT, bake_source, begin_pass};
 use super::uniforms::Bake;
-use crate::mapping::MappingId;
+use crate::mapping::{ChartPoint, MappingId};
 
 /// Mip levels of a map: texels down to a sixteenth.
 pub const MAP_LEVELS: u32 = 5;
@@ -33,6 +33,27 @@ pub(super) struct Map {
     pub view: wgpu::TextureView,
     /// Width and height of a chart in texels.
     pub size: [u32; 2],
+    /// No texel is smaller than this, in the shaders' measure.
+    pub finest_rad: f32,
+}
+
+/// The smallest side of a texel in radians, in the measure of `shaders/footprint.wgsl`, when charts are one texel high:
+/// for N rows divide by N. Taken over a grid, with a margin of a fifth for what lies between.
+fn finest_texel_rad(id: MappingId) -> f32 {
+    const STEPS: u32 = 24;
+    let info = id.info();
+    let mut finest = f64::MAX;
+    for chart in 0..info.chart_count() {
+        for k in 0..STEPS * STEPS {
+            let [u, v] = [k % STEPS, k / STEPS].map(|n| (f64::from(n) + 0.5) / f64::from(STEPS));
+            if let Some((_, jacobian)) = id.jacobian(ChartPoint::new(chart, u, v)) {
+                let longest = (jacobian.du.length() / info.aspect).max(jacobian.dv.length());
+                let side = (jacobian.area_scale() / info.aspect).sqrt();
+                finest = finest.min(side.max(0.5 * longest));
+            }
+        }
+    }
+    (0.8 * finest) as f32
 }
 
 impl Map {
@@ -66,6 +87,7 @@ impl Map {
             texture,
             view,
             size,
+            finest_rad: finest_texel_rad(id) / size[1] as f32,
         }
     }
 

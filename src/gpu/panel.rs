@@ -1,7 +1,7 @@
 //! A panel: one mapping's charts, unfolded into one picture.
 
 use super::frame::{Look, PanelFrame};
-use super::kit::{Kit, PANEL, VIEW_FORMAT, begin_pass, show_source};
+use super::kit::{Kit, PANEL, VIEW_FORMAT, Variant, begin_pass, show_source};
 use super::uniforms;
 use crate::mapping::MappingId;
 
@@ -13,34 +13,39 @@ pub(super) struct Panel {
     /// Changes with every new texture.
     pub id: u64,
     block: wgpu::Buffer,
+    mapping: MappingId,
+    variant: Variant,
     pipeline: wgpu::RenderPipeline,
 }
 
 impl Panel {
-    pub fn new(kit: &Kit, mapping: MappingId, size_px: [u32; 2], id: u64) -> Self {
-        let texture = kit.view_texture("panel", size_px);
+    pub fn new(kit: &Kit, frame: &PanelFrame, id: u64) -> Self {
+        let texture = kit.view_texture("panel", frame.size_px);
+        let variant = Variant::new(frame.overlays);
         Self {
             view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
             texture,
             id,
             block: kit.block_buffer("panel", size_of::<uniforms::Panel>()),
-            pipeline: kit.screen_pipeline(
-                &kit.lookup,
-                &show_source(mapping, PANEL),
-                "panel_fragment",
-                VIEW_FORMAT,
-            ),
+            mapping: frame.mapping,
+            variant,
+            pipeline: pipeline(kit, frame.mapping, variant),
         }
     }
 
-    /// Gives the panel this size; `id` becomes the new texture's, if there is one.
-    pub fn resize(&mut self, kit: &Kit, size_px: [u32; 2], id: u64) {
-        if size_px != [self.texture.width(), self.texture.height()] {
-            self.texture = kit.view_texture("panel", size_px);
+    /// Makes what the frame needs and the panel lacks; `id` becomes the new texture's, if there is one.
+    pub fn prepare(&mut self, kit: &Kit, frame: &PanelFrame, id: u64) {
+        if frame.size_px != [self.texture.width(), self.texture.height()] {
+            self.texture = kit.view_texture("panel", frame.size_px);
             self.view = self
                 .texture
                 .create_view(&wgpu::TextureViewDescriptor::default());
             self.id = id;
+        }
+        let variant = Variant::new(frame.overlays);
+        if self.variant != variant {
+            self.variant = variant;
+            self.pipeline = pipeline(kit, self.mapping, variant);
         }
     }
 
@@ -60,7 +65,6 @@ impl Panel {
                 look.exposure,
             ),
             screen: [width, height, look.tone.index() as f32, 0.0],
-            overlays: frame.overlays.switches(),
         };
         kit.gpu
             .queue
@@ -70,4 +74,9 @@ impl Panel {
         pass.set_bind_group(0, &kit.lookup_group(&self.block, map), &[]);
         pass.draw(0..3, 0..1);
     }
+}
+
+fn pipeline(kit: &Kit, mapping: MappingId, variant: Variant) -> wgpu::RenderPipeline {
+    let source = show_source(mapping, PANEL, variant);
+    kit.screen_pipeline(&kit.lookup, &source, "panel_fragment", VIEW_FORMAT)
 }

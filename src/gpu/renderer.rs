@@ -378,9 +378,7 @@ impl Renderer {
             .viewport
             .get_or_insert_with(|| Viewport::new(kit, seen, number));
         viewport.prepare(kit, seen, number);
-        let maps = &self.maps;
-        let map_of = |id| maps.get(&id).map(|map| map.view.clone());
-        viewport.draw(kit, encoder, seen, frame.look(), map_of);
+        viewport.draw(kit, encoder, seen, frame.look(), &self.maps);
     }
 
     fn run_panel(&mut self, encoder: &mut wgpu::CommandEncoder, frame: &Frame, seen: &PanelFrame) {
@@ -389,9 +387,9 @@ impl Renderer {
             return;
         };
         let kit = &self.kit;
-        let make = || Panel::new(kit, seen.mapping, seen.size_px, number);
+        let make = || Panel::new(kit, seen, number);
         let panel = self.panels.entry(seen.mapping).or_insert_with(make);
-        panel.resize(kit, seen.size_px, number);
+        panel.prepare(kit, seen, number);
         panel.draw(kit, encoder, seen, frame.look(), &map.view);
     }
 

@@ -27,10 +27,8 @@ pub struct View {
     pub right: [f32; 4],
     /// To the upper border, height in pixels.
     pub up: [f32; 4],
-    /// Unit direction, shown.
+    /// Unit direction.
     pub probe: [f32; 4],
-    /// Great circles, face tint, grid.
-    pub overlays: [f32; 4],
 }
 
 /// Twin of `Panel` in `shaders/panel.wgsl`.
@@ -43,8 +41,6 @@ pub struct Panel {
     pub background: [f32; 4],
     /// Width and height in pixels, tone curve.
     pub screen: [f32; 4],
-    /// Great circles, face tint, grid.
-    pub overlays: [f32; 4],
 }
 
 /// Name and offset of each member of a block.
@@ -64,8 +60,8 @@ pub fn blocks() -> Vec<(&'static str, usize, Members)> {
     }
     vec![
         block!(Bake: chart, environment),
-        block!(View: clip_from_relative, eye, forward, right, up, probe, overlays),
-        block!(Panel: window, background, screen, overlays),
+        block!(View: clip_from_relative, eye, forward, right, up, probe),
+        block!(Panel: window, background, screen),
     ]
 }
 

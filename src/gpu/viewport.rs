@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::frame::{Look, ViewportFrame};
-use super::kit::{Kit, VIEW_FORMAT, VIEWPORT, show_source};
+use super::kit::{Kit, VIEW_FORMAT, VIEWPORT, Variant, show_source};
+use super::map::Map;
 use super::uniforms::{View, vec4};
 use crate::mapping::MappingId;
 use crate::scene::Object;
@@ -25,13 +26,16 @@ pub(super) struct Viewport {
     depth: wgpu::Texture,
     block: wgpu::Buffer,
     mesh: GpuMesh,
-    pipelines: BTreeMap<MappingId, Pipelines>,
+    pipelines: BTreeMap<Key, wgpu::RenderPipeline>,
 }
 
-#[derive(Debug)]
-struct Pipelines {
-    object: wgpu::RenderPipeline,
-    sky: wgpu::RenderPipeline,
+/// What a pipeline draws, of which mapping, and how.
+type Key = (Part, MappingId, Variant);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Part {
+    Object,
+    Sky,
 }
 
 #[derive(Debug)]
@@ -71,32 +75,35 @@ impl Viewport {
         if self.mesh.object != frame.object {
             self.mesh = GpuMesh::new(kit, frame.object);
         }
-        for id in frame.mappings() {
-            self.pipelines
-                .entry(id)
-                .or_insert_with(|| Pipelines::new(kit, id));
-        }
     }
 
     /// Drops the pipelines of mappings that the frame does not look up.
     pub fn keep_only(&mut self, frame: &ViewportFrame) {
         self.pipelines
-            .retain(|id, _| frame.mappings().any(|used| used == *id));
+            .retain(|(_, id, _), _| frame.mappings().any(|used| used == *id));
     }
 
     /// Draws object and sky, left and right of the divider.
     pub fn draw(
-        &self,
+        &mut self,
         kit: &Kit,
         encoder: &mut wgpu::CommandEncoder,
         frame: &ViewportFrame,
         look: Look,
-        map_of: impl Fn(MappingId) -> Option<wgpu::TextureView>,
+        maps: &BTreeMap<MappingId, Map>,
     ) {
         let block = view_block(frame, look);
         kit.gpu
             .queue
             .write_buffer(&self.block, 0, bytemuck::bytes_of(&block));
+        let keys = keys(frame, maps);
+        self.pipelines
+            .retain(|key, _| keys.iter().any(|pair| pair.contains(key)));
+        for key in keys.iter().flatten() {
+            self.pipelines
+                .entry(*key)
+                .or_insert_with(|| pipeline(kit, *key));
+        }
         let samples = self
             .samples
             .create_view(&wgpu::TextureViewDescriptor::default());
@@ -132,19 +139,20 @@ impl Viewport {
         let [width, height] = frame.size_px;
         let divider = frame.divider_px();
         let sides = [(0, divider), (divider, width)];
-        for (id, (start, end)) in frame.mappings().zip(sides) {
-            let (Some(pipelines), Some(map)) = (self.pipelines.get(&id), map_of(id)) else {
+        for ([object, sky_key], (start, end)) in keys.into_iter().zip(sides) {
+            let pair = (self.pipelines.get(&object), self.pipelines.get(&sky_key));
+            let ((Some(object), Some(sky)), Some(map)) = (pair, maps.get(&sky_key.1)) else {
                 continue;
             };
             if start == end {
                 continue;
             }
             pass.set_scissor_rect(start, 0, end - start, height);
-            pass.set_bind_group(0, &kit.lookup_group(&self.block, &map), &[]);
+            pass.set_bind_group(0, &kit.lookup_group(&self.block, &map.view), &[]);
             // The object first: the sky is then not computed behind it.
-            pass.set_pipeline(&pipelines.object);
+            pass.set_pipeline(object);
             pass.draw_indexed(0..self.mesh.count, 0, 0..1);
-            pass.set_pipeline(&pipelines.sky);
+            pass.set_pipeline(sky);
             pass.draw(0..3, 0..1);
         }
     }
@@ -156,7 +164,7 @@ impl Viewport {
 
     /// Number of pipelines.
     pub fn pipeline_count(&self) -> usize {
-        2 * self.pipelines.len()
+        self.pipelines.len()
     }
 }
 
@@ -167,15 +175,13 @@ fn view_block(frame: &ViewportFrame, look: Look) -> View {
     // Only the turn of the view: the shader subtracts the eye before it multiplies.
     let mut turn = frame.camera.view_from_world();
     turn.w_axis = glam::Vec4::W;
-    let shown = f32::from(u8::from(frame.show_probe));
     View {
         clip_from_relative: (frame.camera.clip_from_view(aspect) * turn).to_cols_array_2d(),
         eye: vec4(rays.eye.to_array(), look.exposure),
         forward: vec4(rays.forward.to_array(), look.tone.index() as f32),
         right: vec4(rays.right.to_array(), width),
         up: vec4(rays.up.to_array(), height),
-        probe: vec4(frame.probe, shown),
-        overlays: frame.overlays.switches(),
+        probe: vec4(frame.probe, 0.0),
     }
 }
 
@@ -233,63 +239,93 @@ impl GpuMesh {
     }
 }
 
-impl Pipelines {
-    fn new(kit: &Kit, id: MappingId) -> Self {
-        let module = kit.module("viewport", &show_source(id, VIEWPORT));
-        let layout = kit.pipeline_layout(&kit.lookup);
-        let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
-        let vertex_layout = wgpu::VertexBufferLayout {
-            array_stride: VERTEX_BYTES,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &attributes,
-        };
-        let pipeline = |vertex, fragment, is_object: bool| {
-            let buffers = [Some(vertex_layout.clone())];
-            kit.gpu
-                .device
-                .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                    label: Some(fragment),
-                    layout: Some(&layout),
-                    vertex: wgpu::VertexState {
-                        module: &module,
-                        entry_point: Some(vertex),
-                        compilation_options: wgpu::PipelineCompilationOptions::default(),
-                        buffers: if is_object { &buffers } else { &[] },
-                    },
-                    primitive: wgpu::PrimitiveState {
-                        // As the meshes are wound; see `scene::Mesh`.
-                        front_face: wgpu::FrontFace::Cw,
-                        cull_mode: is_object.then_some(wgpu::Face::Back),
-                        ..Default::default()
-                    },
-                    depth_stencil: Some(wgpu::DepthStencilState {
-                        format: DEPTH_FORMAT,
-                        depth_write_enabled: Some(is_object),
-                        depth_compare: Some(if is_object {
-                            wgpu::CompareFunction::Less
-                        } else {
-                            wgpu::CompareFunction::LessEqual
-                        }),
-                        stencil: wgpu::StencilState::default(),
-                        bias: wgpu::DepthBiasState::default(),
-                    }),
-                    multisample: wgpu::MultisampleState {
-                        count: SAMPLES,
-                        ..Default::default()
-                    },
-                    fragment: Some(wgpu::FragmentState {
-                        module: &module,
-                        entry_point: Some(fragment),
-                        compilation_options: wgpu::PipelineCompilationOptions::default(),
-                        targets: &[Some(VIEW_FORMAT.into())],
-                    }),
-                    multiview_mask: None,
-                    cache: None,
-                })
-        };
-        Self {
-            object: pipeline("object_vertex", "object_fragment", true),
-            sky: pipeline("screen_vertex", "sky_fragment", false),
-        }
-    }
+/// The pipelines of each side of the divider.
+fn keys(frame: &ViewportFrame, maps: &BTreeMap<MappingId, Map>) -> Vec<[Key; 2]> {
+    let [width, height] = frame.size_px.map(|n| n as f32);
+    let rays = frame.camera.ray_frame(width / height);
+    // A pixel of the sky is widest in the middle of the screen.
+    let widest_rad = (2.0 * rays.right.length() / width).max(2.0 * rays.up.length() / height);
+    let shown = Variant {
+        probe: frame.show_probe,
+        ..Variant::new(frame.overlays)
+    };
+    let pair = |id: MappingId| {
+        let finest_rad = maps.get(&id).map_or(0.0, |map| map.finest_rad);
+        let level = widest_rad > finest_rad;
+        [
+            (
+                Part::Object,
+                id,
+                Variant {
+                    level: true,
+                    ..shown
+                },
+            ),
+            (Part::Sky, id, Variant { level, ..shown }),
+        ]
+    };
+    frame.mappings().map(pair).collect()
+}
+
+fn pipeline(kit: &Kit, (part, id, variant): Key) -> wgpu::RenderPipeline {
+    let module = kit.module("viewport", &show_source(id, VIEWPORT, variant));
+    let layout = kit.pipeline_layout(&kit.lookup);
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
+    let vertex_layout = [Some(wgpu::VertexBufferLayout {
+        array_stride: VERTEX_BYTES,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &attributes,
+    })];
+    let is_object = part == Part::Object;
+    let (vertex, fragment, buffers, depth_compare) = match part {
+        Part::Object => (
+            "object_vertex",
+            "object_fragment",
+            &vertex_layout[..],
+            wgpu::CompareFunction::Less,
+        ),
+        // At depth 1, where nothing was drawn.
+        Part::Sky => (
+            "screen_vertex",
+            "sky_fragment",
+            &[][..],
+            wgpu::CompareFunction::LessEqual,
+        ),
+    };
+    let descriptor = wgpu::RenderPipelineDescriptor {
+        label: Some(fragment),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some(vertex),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers,
+        },
+        primitive: wgpu::PrimitiveState {
+            // As the meshes are wound; see `scene::Mesh`.
+            front_face: wgpu::FrontFace::Cw,
+            cull_mode: is_object.then_some(wgpu::Face::Back),
+            ..Default::default()
+        },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(is_object),
+            depth_compare: Some(depth_compare),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState {
+            count: SAMPLES,
+            ..Default::default()
+        },
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(fragment),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(VIEW_FORMAT.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    };
+    kit.gpu.device.create_render_pipeline(&descriptor)
 }
