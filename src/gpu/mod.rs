@@ -2,7 +2,29 @@
 
 pub mod compute;
 pub mod context;
+pub mod environment;
+pub mod frame;
+pub mod kit;
+pub mod map;
+pub mod overlay;
+mod panel;
+pub mod plan;
+pub mod readback;
+pub mod renderer;
+pub mod report;
 pub mod shader;
+pub mod tone;
+pub mod uniforms;
+pub mod viewport;
 
 pub use compute::GpuEvaluator;
 pub use context::{Gpu, GpuError};
+pub use environment::EnvironmentSource;
+pub use frame::{Frame, PanelFrame, ViewportFrame};
+pub use map::map_size;
+pub use overlay::{FACE_COLORS, GREAT_CIRCLE_COLORS, Overlays};
+pub use plan::Node;
+pub use readback::{MapPixels, RgbaPixels, TexelRead};
+pub use renderer::{RenderError, Renderer};
+pub use report::{Report, Totals};
+pub use tone::ToneCurve;

@@ -1,0 +1,328 @@
+//! What every pass of the renderer needs: layouts, samplers, and short ways to make things.
+
+use super::{Gpu, Overlays, overlay, shader, tone};
+use crate::mapping::{Coverage, MappingId};
+
+/// What the screen gets: sRGB values in a format that does not convert them again.
+pub const VIEW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// Light, linear: half floats can be filtered and drawn to on every adapter.
+pub const LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+
+/// The viewport's pass on one mapping.
+pub const VIEWPORT: &str = concat!(
+    include_str!("../../shaders/screen.wgsl"),
+    include_str!("../../shaders/footprint.wgsl"),
+    include_str!("../../shaders/color.wgsl"),
+    include_str!("../../shaders/lookup.wgsl"),
+    include_str!("../../shaders/overlay.wgsl"),
+    include_str!("../../shaders/viewport.wgsl"),
+);
+/// A panel's pass on one mapping.
+pub const PANEL: &str = concat!(
+    include_str!("../../shaders/screen.wgsl"),
+    include_str!("../../shaders/footprint.wgsl"),
+    include_str!("../../shaders/color.wgsl"),
+    include_str!("../../shaders/lookup.wgsl"),
+    include_str!("../../shaders/overlay.wgsl"),
+    include_str!("../../shaders/panel.wgsl"),
+);
+/// The pass that fills a mapping's map.
+pub const BAKE: &str = concat!(
+    include_str!("../../shaders/screen.wgsl"),
+    include_str!("../../shaders/footprint.wgsl"),
+    include_str!("../../shaders/bake.wgsl"),
+);
+/// The pass that halves a picture.
+pub const HALVE: &str = concat!(
+    include_str!("../../shaders/screen.wgsl"),
+    include_str!("../../shaders/halve.wgsl"),
+);
+
+/// The whole text of the pass that fills a mapping's map.
+#[must_use]
+pub fn bake_source(id: MappingId) -> String {
+    shader::for_mapping(id, BAKE)
+}
+
+/// What a pass that shows a mapping does. Constants of the shader, so that nothing is computed that is not seen, also on
+/// adapters that run both sides of a branch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Variant {
+    /// Paints the great circles.
+    pub great_circles: bool,
+    /// Paints the tint of the face.
+    pub face_tint: bool,
+    /// Paints lines of equal u and v.
+    pub grid: bool,
+    /// Paints the probe.
+    pub probe: bool,
+    /// Some pixel may cover more than a texel: the viewport works out the level for each.
+    pub level: bool,
+}
+
+impl Variant {
+    /// With these overlays, without probe and level.
+    #[must_use]
+    pub fn new(overlays: Overlays) -> Self {
+        Self {
+            great_circles: overlays.great_circles,
+            face_tint: overlays.face_tint,
+            grid: overlays.grid,
+            ..Self::default()
+        }
+    }
+}
+
+/// The whole text of a pass that shows a mapping: [`VIEWPORT`] or [`PANEL`].
+#[must_use]
+pub fn show_source(id: MappingId, pass: &str, variant: Variant) -> String {
+    let covers_sphere = !matches!(id.info().coverage, Coverage::Hemisphere(_));
+    let switches = [
+        ("MAP_COVERS_SPHERE", covers_sphere),
+        ("SHOW_GREAT_CIRCLES", variant.great_circles),
+        ("SHOW_FACE_TINT", variant.face_tint),
+        ("SHOW_GRID", variant.grid),
+        ("SHOW_PROBE", variant.probe),
+        ("NEEDS_LEVEL", variant.level),
+    ];
+    let mut text: String = switches
+        .map(|(name, on)| format!("const {name} = {on};\n"))
+        .concat();
+    text += &tone::wgsl_constants();
+    text += &overlay::wgsl_constants();
+    text += &super::map::wgsl_constants();
+    shader::for_mapping(id, &(text + pass))
+}
+
+/// Layouts and samplers that all passes share.
+#[derive(Debug)]
+pub(super) struct Kit {
+    pub gpu: Gpu,
+    /// A block, a map, a sampler.
+    pub lookup: wgpu::BindGroupLayout,
+    /// A block at a moving offset, the environment, a sampler.
+    pub bake: wgpu::BindGroupLayout,
+    /// A picture.
+    pub halve: wgpu::BindGroupLayout,
+    /// Linear in all respects; never beyond the border.
+    pub map_sampler: wgpu::Sampler,
+    /// The same, but around the date line.
+    pub environment_sampler: wgpu::Sampler,
+}
+
+impl Kit {
+    pub fn new(gpu: Gpu) -> Self {
+        let device = &gpu.device;
+        let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries,
+            })
+        };
+        let sampler = |label, address_mode_u| {
+            device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some(label),
+                address_mode_u,
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                mipmap_filter: wgpu::MipmapFilterMode::Linear,
+                ..Default::default()
+            })
+        };
+        let array = wgpu::TextureViewDimension::D2Array;
+        let plain = wgpu::TextureViewDimension::D2;
+        Self {
+            lookup: layout(
+                "lookup",
+                &[block_entry(false), texture_entry(1, array), sampler_entry()],
+            ),
+            bake: layout(
+                "bake",
+                &[block_entry(true), texture_entry(1, plain), sampler_entry()],
+            ),
+            halve: layout("halve", &[texture_entry(0, plain)]),
+            map_sampler: sampler("map", wgpu::AddressMode::ClampToEdge),
+            environment_sampler: sampler("environment", wgpu::AddressMode::Repeat),
+            gpu,
+        }
+    }
+
+    /// A pass that covers its target with one triangle.
+    pub fn screen_pipeline(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        source: &str,
+        fragment: &str,
+        format: wgpu::TextureFormat,
+    ) -> wgpu::RenderPipeline {
+        let module = self.module(fragment, source);
+        self.gpu
+            .device
+            .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(fragment),
+                layout: Some(&self.pipeline_layout(layout)),
+                vertex: wgpu::VertexState {
+                    module: &module,
+                    entry_point: Some("screen_vertex"),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    buffers: &[],
+                },
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil: None,
+                multisample: wgpu::MultisampleState::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: &module,
+                    entry_point: Some(fragment),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    targets: &[Some(format.into())],
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+    }
+
+    pub fn module(&self, label: &str, source: &str) -> wgpu::ShaderModule {
+        self.gpu
+            .device
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Wgsl(source.into()),
+            })
+    }
+
+    pub fn pipeline_layout(&self, layout: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+        self.gpu
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: None,
+                bind_group_layouts: &[Some(layout)],
+                immediate_size: 0,
+            })
+    }
+
+    /// A buffer for one block.
+    pub fn block_buffer(&self, label: &str, bytes: usize) -> wgpu::Buffer {
+        self.gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: bytes as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// A block and a map, as [`lookup`](Self::lookup) lays them out.
+    pub fn lookup_group(&self, block: &wgpu::Buffer, map: &wgpu::TextureView) -> wgpu::BindGroup {
+        self.gpu
+            .device
+            .create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("lookup"),
+                layout: &self.lookup,
+                entries: &[
+                    wgpu::BindGroupEntry {
+                        binding: 0,
+                        resource: block.as_entire_binding(),
+                    },
+                    wgpu::BindGroupEntry {
+                        binding: 1,
+                        resource: wgpu::BindingResource::TextureView(map),
+                    },
+                    wgpu::BindGroupEntry {
+                        binding: 2,
+                        resource: wgpu::BindingResource::Sampler(&self.map_sampler),
+                    },
+                ],
+            })
+    }
+
+    /// A texture of one layer and level that the screen can show and that can be read back.
+    pub fn view_texture(&self, label: &str, [width, height]: [u32; 2]) -> wgpu::Texture {
+        self.gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: VIEW_FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                | wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        })
+    }
+}
+
+fn block_entry(has_dynamic_offset: bool) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding: 0,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset,
+            min_binding_size: None,
+        },
+        count: None,
+    }
+}
+
+fn texture_entry(
+    binding: u32,
+    view_dimension: wgpu::TextureViewDimension,
+) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension,
+            multisampled: false,
+        },
+        count: None,
+    }
+}
+
+fn sampler_entry() -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding: 2,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+        count: None,
+    }
+}
+
+/// A pass that clears its one target and draws on it.
+pub(super) fn begin_pass<'e>(
+    encoder: &'e mut wgpu::CommandEncoder,
+    label: &str,
+    target: &wgpu::TextureView,
+) -> wgpu::RenderPass<'e> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: target,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                store: wgpu::StoreOp::Store,
+            },
+        })],
+        depth_stencil_attachment: None,
+        timestamp_writes: None,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
+}
+
+/// Bytes of a texture with all its levels, layers and samples.
+pub(super) fn texture_bytes(texture: &wgpu::Texture) -> u64 {
+    let texel = u64::from(texture.format().block_copy_size(None).unwrap_or(4));
+    let level = |l: u32| {
+        u64::from((texture.width() >> l).max(1)) * u64::from((texture.height() >> l).max(1))
+    };
+    let texels: u64 = (0..texture.mip_level_count()).map(level).sum();
+    texels * texel * u64::from(texture.depth_or_array_layers()) * u64::from(texture.sample_count())
+}

@@ -1,0 +1,331 @@
+//! The viewport: the mirror object before its environment, both looked up in the shown mappings' own maps.
+
+use std::collections::BTreeMap;
+
+use super::frame::{Look, ViewportFrame};
+use super::kit::{Kit, VIEW_FORMAT, VIEWPORT, Variant, show_source};
+use super::map::Map;
+use super::uniforms::{View, vec4};
+use crate::mapping::MappingId;
+use crate::scene::Object;
+
+/// Samples of a pixel for the object's silhouette; light is looked up once a pixel.
+pub const SAMPLES: u32 = 4;
+const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// Bytes of a vertex: position and normal.
+const VERTEX_BYTES: u64 = 24;
+
+/// Everything of the viewport on the device.
+#[derive(Debug)]
+pub(super) struct Viewport {
+    pub texture: wgpu::Texture,
+    pub view: wgpu::TextureView,
+    /// Changes with every new texture.
+    pub id: u64,
+    samples: wgpu::Texture,
+    depth: wgpu::Texture,
+    block: wgpu::Buffer,
+    mesh: GpuMesh,
+    pipelines: BTreeMap<Key, wgpu::RenderPipeline>,
+}
+
+/// What a pipeline draws, of which mapping, and how.
+type Key = (Part, MappingId, Variant);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Part {
+    Object,
+    Sky,
+}
+
+#[derive(Debug)]
+struct GpuMesh {
+    object: Object,
+    vertices: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    count: u32,
+}
+
+impl Viewport {
+    pub fn new(kit: &Kit, frame: &ViewportFrame, id: u64) -> Self {
+        let texture = kit.view_texture("viewport", frame.size_px);
+        Self {
+            view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
+            samples: attachment(kit, frame.size_px, VIEW_FORMAT),
+            depth: attachment(kit, frame.size_px, DEPTH_FORMAT),
+            texture,
+            id,
+            block: kit.block_buffer("view", size_of::<View>()),
+            mesh: GpuMesh::new(kit, frame.object),
+            pipelines: BTreeMap::new(),
+        }
+    }
+
+    /// Makes what the frame needs and the viewport lacks; `id` becomes the new texture's, if there is one.
+    pub fn prepare(&mut self, kit: &Kit, frame: &ViewportFrame, id: u64) {
+        if frame.size_px != [self.texture.width(), self.texture.height()] {
+            self.texture = kit.view_texture("viewport", frame.size_px);
+            self.view = self
+                .texture
+                .create_view(&wgpu::TextureViewDescriptor::default());
+            self.samples = attachment(kit, frame.size_px, VIEW_FORMAT);
+            self.depth = attachment(kit, frame.size_px, DEPTH_FORMAT);
+            self.id = id;
+        }
+        if self.mesh.object != frame.object {
+            self.mesh = GpuMesh::new(kit, frame.object);
+        }
+    }
+
+    /// Drops the pipelines of mappings that the frame does not look up.
+    pub fn keep_only(&mut self, frame: &ViewportFrame) {
+        self.pipelines
+            .retain(|(_, id, _), _| frame.mappings().any(|used| used == *id));
+    }
+
+    /// Draws object and sky, left and right of the divider.
+    pub fn draw(
+        &mut self,
+        kit: &Kit,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &ViewportFrame,
+        look: Look,
+        maps: &BTreeMap<MappingId, Map>,
+    ) {
+        let block = view_block(frame, look);
+        kit.gpu
+            .queue
+            .write_buffer(&self.block, 0, bytemuck::bytes_of(&block));
+        let keys = keys(frame, maps);
+        self.pipelines
+            .retain(|key, _| keys.iter().any(|pair| pair.contains(key)));
+        for key in keys.iter().flatten() {
+            self.pipelines
+                .entry(*key)
+                .or_insert_with(|| pipeline(kit, *key));
+        }
+        let samples = self
+            .samples
+            .create_view(&wgpu::TextureViewDescriptor::default());
+        let depth = self
+            .depth
+            .create_view(&wgpu::TextureViewDescriptor::default());
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("viewport"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &samples,
+                depth_slice: None,
+                resolve_target: Some(&self.view),
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                    store: wgpu::StoreOp::Discard,
+                },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &depth,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(1.0),
+                    store: wgpu::StoreOp::Discard,
+                }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: None,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_vertex_buffer(0, self.mesh.vertices.slice(..));
+        pass.set_index_buffer(self.mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
+
+        let [width, height] = frame.size_px;
+        let divider = frame.divider_px();
+        let sides = [(0, divider), (divider, width)];
+        for ([object, sky_key], (start, end)) in keys.into_iter().zip(sides) {
+            let pair = (self.pipelines.get(&object), self.pipelines.get(&sky_key));
+            let ((Some(object), Some(sky)), Some(map)) = (pair, maps.get(&sky_key.1)) else {
+                continue;
+            };
+            if start == end {
+                continue;
+            }
+            pass.set_scissor_rect(start, 0, end - start, height);
+            pass.set_bind_group(0, &kit.lookup_group(&self.block, &map.view), &[]);
+            // The object first: the sky is then not computed behind it.
+            pass.set_pipeline(object);
+            pass.draw_indexed(0..self.mesh.count, 0, 0..1);
+            pass.set_pipeline(sky);
+            pass.draw(0..3, 0..1);
+        }
+    }
+
+    /// The textures, for the count.
+    pub fn textures(&self) -> [&wgpu::Texture; 3] {
+        [&self.texture, &self.samples, &self.depth]
+    }
+
+    /// Number of pipelines.
+    pub fn pipeline_count(&self) -> usize {
+        self.pipelines.len()
+    }
+}
+
+fn view_block(frame: &ViewportFrame, look: Look) -> View {
+    let [width, height] = frame.size_px.map(|n| n as f32);
+    let aspect = width / height;
+    let rays = frame.camera.ray_frame(aspect);
+    // Only the turn of the view: the shader subtracts the eye before it multiplies.
+    let mut turn = frame.camera.view_from_world();
+    turn.w_axis = glam::Vec4::W;
+    View {
+        clip_from_relative: (frame.camera.clip_from_view(aspect) * turn).to_cols_array_2d(),
+        eye: vec4(rays.eye.to_array(), look.exposure),
+        forward: vec4(rays.forward.to_array(), look.tone.index() as f32),
+        right: vec4(rays.right.to_array(), width),
+        up: vec4(rays.up.to_array(), height),
+        probe: vec4(frame.probe, 0.0),
+    }
+}
+
+/// A texture that lives within one pass.
+fn attachment(kit: &Kit, [width, height]: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
+    kit.gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("viewport samples"),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: SAMPLES,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    })
+}
+
+impl GpuMesh {
+    fn new(kit: &Kit, object: Object) -> Self {
+        let mesh = object.mesh();
+        let vertices: Vec<[f32; 6]> = mesh
+            .positions
+            .iter()
+            .zip(&mesh.normals)
+            .map(|([x, y, z], [a, b, c])| [*x, *y, *z, *a, *b, *c])
+            .collect();
+        let buffer = |label, usage, bytes: &[u8]| {
+            let buffer = kit.gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: bytes.len() as u64,
+                usage: usage | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            });
+            kit.gpu.queue.write_buffer(&buffer, 0, bytes);
+            buffer
+        };
+        Self {
+            object,
+            vertices: buffer(
+                "vertices",
+                wgpu::BufferUsages::VERTEX,
+                bytemuck::cast_slice(&vertices),
+            ),
+            indices: buffer(
+                "indices",
+                wgpu::BufferUsages::INDEX,
+                bytemuck::cast_slice(&mesh.indices),
+            ),
+            count: mesh.indices.len() as u32,
+        }
+    }
+}
+
+/// The pipelines of each side of the divider.
+fn keys(frame: &ViewportFrame, maps: &BTreeMap<MappingId, Map>) -> Vec<[Key; 2]> {
+    let [width, height] = frame.size_px.map(|n| n as f32);
+    let rays = frame.camera.ray_frame(width / height);
+    // A pixel of the sky is widest in the middle of the screen.
+    let widest_rad = (2.0 * rays.right.length() / width).max(2.0 * rays.up.length() / height);
+    let shown = Variant {
+        probe: frame.show_probe,
+        ..Variant::new(frame.overlays)
+    };
+    let pair = |id: MappingId| {
+        let finest_rad = maps.get(&id).map_or(0.0, |map| map.finest_rad);
+        let level = widest_rad > finest_rad;
+        [
+            (
+                Part::Object,
+                id,
+                Variant {
+                    level: true,
+                    ..shown
+                },
+            ),
+            (Part::Sky, id, Variant { level, ..shown }),
+        ]
+    };
+    frame.mappings().map(pair).collect()
+}
+
+fn pipeline(kit: &Kit, (part, id, variant): Key) -> wgpu::RenderPipeline {
+    let module = kit.module("viewport", &show_source(id, VIEWPORT, variant));
+    let layout = kit.pipeline_layout(&kit.lookup);
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
+    let vertex_layout = [Some(wgpu::VertexBufferLayout {
+        array_stride: VERTEX_BYTES,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &attributes,
+    })];
+    let is_object = part == Part::Object;
+    let (vertex, fragment, buffers, depth_compare) = match part {
+        Part::Object => (
+            "object_vertex",
+            "object_fragment",
+            &vertex_layout[..],
+            wgpu::CompareFunction::Less,
+        ),
+        // At depth 1, where nothing was drawn.
+        Part::Sky => (
+            "screen_vertex",
+            "sky_fragment",
+            &[][..],
+            wgpu::CompareFunction::LessEqual,
+        ),
+    };
+    let descriptor = wgpu::RenderPipelineDescriptor {
+        label: Some(fragment),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some(vertex),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers,
+        },
+        primitive: wgpu::PrimitiveState {
+            // As the meshes are wound; see `scene::Mesh`.
+            front_face: wgpu::FrontFace::Cw,
+            cull_mode: is_object.then_some(wgpu::Face::Back),
+            ..Default::default()
+        },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(is_object),
+            depth_compare: Some(depth_compare),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState {
+            count: SAMPLES,
+            ..Default::default()
+        },
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(fragment),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(VIEW_FORMAT.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    };
+    kit.gpu.device.create_render_pipeline(&descriptor)
+}
