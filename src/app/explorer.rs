@@ -107,6 +107,16 @@ impl Explorer {
         &self.messages
     }
 
+    /// What the renderer did last.
+    pub fn report(&self) -> &crate::gpu::Report {
+        self.renderer.report()
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
     /// True while a job runs or a map waits to be drawn.
     pub fn is_busy(&self) -> bool {
         self.pending
@@ -422,8 +432,11 @@ impl Explorer {
         match job.poll() {
             Outcome::Running => self.loading = Some((environment, job)),
             Outcome::Done(Ok(loaded)) => {
-                if let Some(summary) = loaded.bad.summary() {
-                    self.tell(summary);
+                // Of the built-in ones it stands beside their name; of a file it is news.
+                if let (Environment::File(_), Some(summary)) =
+                    (&environment, loaded.bad.summary())
+                {
+                    self.tell(format!("{}: {summary}", environment.name()));
                 }
                 self.install(Surroundings { environment, loaded: Arc::new(loaded) });
             }

@@ -27,7 +27,7 @@ pub fn map_panel_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
     if rect.width() < 1.0 || rect.height() < 1.0 {
         return;
     }
-    let name = format!("{} map", mapping.info().name);
+    let name = format!("Panel: {}", mapping.info().name);
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
     model.view_ui(ui, ViewKey::Panel(mapping), rect);

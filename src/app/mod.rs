@@ -30,4 +30,4 @@ mod viewport;
 pub mod views;
 mod window;
 
-pub use window::{RunError, run};
+pub use window::{Lost, RunError, Window, run};

@@ -151,8 +151,13 @@ impl Behavior<Pane> for PaneBehavior<'_, '_> {
     ) {
         let Some(Tile::Pane(pane)) = tabs.active.and_then(|id| tiles.get(id)) else { return };
         let name = format!("Maximise {}", pane.name());
-        let button = egui::Button::new("⛶").small().frame(false);
-        let response = ui.add(button).on_hover_text(&name);
+        let (rect, response) = ui.allocate_exact_size(egui::vec2(16.0, 16.0), egui::Sense::click());
+        let color = ui.style().interact(&response).fg_stroke.color;
+        let frame = egui::Rect::from_center_size(rect.center(), egui::vec2(9.0, 9.0));
+        let stroke = egui::Stroke::new(1.2, color);
+        ui.painter().rect_stroke(frame, 1.0, stroke, egui::StrokeKind::Middle);
+        ui.painter().line_segment([frame.left_top(), frame.right_top()], (2.4, color));
+        let response = response.on_hover_text(&name);
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::Button, true, name.as_str())
         });

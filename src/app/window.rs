@@ -31,23 +31,13 @@ pub fn run(file: Option<&Path>) -> Result<(), RunError> {
         Some(path) => files::open_scene(path).map_err(RunError::Scene)?,
         None => AppState::default(),
     };
-    let lost = Arc::new(Mutex::new(None));
+    let lost = Lost::default();
     let report = Arc::clone(&lost);
     let created = eframe::run_native(
         "Sixfold",
         options(),
         Box::new(move |creation| {
-            theme::install(&creation.egui_ctx);
-            let state_of_device =
-                creation.wgpu_render_state.as_ref().ok_or("the window has no wgpu device")?;
-            let gpu = Gpu::from_parts(
-                state_of_device.device.clone(),
-                state_of_device.queue.clone(),
-                state_of_device.adapter.get_info(),
-            );
-            let painter = Arc::clone(&state_of_device.renderer);
-            let explorer = Explorer::new(gpu, painter, state);
-            Ok(Box::new(Window { explorer, lost: report }))
+            Ok(Box::new(Window::new(creation, state, report)?))
         }),
     );
     created.map_err(|error| RunError::Window(one_line(&error.to_string())))?;
@@ -80,9 +70,46 @@ fn options() -> eframe::NativeOptions {
     }
 }
 
-struct Window {
+/// Why the device was lost, once it was.
+pub type Lost = Arc<Mutex<Option<String>>>;
+
+/// The explorer as eframe runs it.
+pub struct Window {
     explorer: Explorer,
-    lost: Arc<Mutex<Option<String>>>,
+    lost: Lost,
+}
+
+impl Window {
+    /// The window's content on the device that eframe has opened.
+    ///
+    /// # Errors
+    /// When there is no such device.
+    pub fn new(
+        creation: &eframe::CreationContext<'_>,
+        state: AppState,
+        lost: Lost,
+    ) -> Result<Self, String> {
+        theme::install(&creation.egui_ctx);
+        let device =
+            creation.wgpu_render_state.as_ref().ok_or("the window has no graphics device")?;
+        let gpu = Gpu::from_parts(
+            device.device.clone(),
+            device.queue.clone(),
+            device.adapter.get_info(),
+        );
+        let explorer = Explorer::new(gpu, Arc::clone(&device.renderer), state);
+        Ok(Self { explorer, lost })
+    }
+
+    /// What is behind the window.
+    pub fn explorer(&self) -> &Explorer {
+        &self.explorer
+    }
+
+    /// What is behind the window, to be told something.
+    pub fn explorer_mut(&mut self) -> &mut Explorer {
+        &mut self.explorer
+    }
 }
 
 impl eframe::App for Window {

@@ -136,7 +136,7 @@ pub(super) fn read_part(
 }
 
 /// Waits for a whole picture of display values.
-pub(super) fn read_view(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaPixels, RenderError> {
+pub fn read_view(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaPixels, RenderError> {
     if texture.format() != VIEW_FORMAT {
         return Err(RenderError::Gpu(GpuError::Refused(
             "only pictures of display values can be read".into(),

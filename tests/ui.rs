@@ -1,0 +1,278 @@
+//! The window by role and label, on a software adapter: panels, probe, sign table, messages, and what is left undrawn.
+
+#![cfg(feature = "explorer")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests say what they expect by unwrapping")]
+
+use std::time::{Duration, Instant};
+
+use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::{Harness, HarnessBuilder};
+use sixfold::app::action::Action;
+use sixfold::app::command::Command;
+use sixfold::app::state::AppState;
+use sixfold::app::{Lost, Window};
+use sixfold::gpu::context;
+use sixfold::imaging::Environment;
+use sixfold::mapping::MappingId;
+use sixfold::math::Vec3;
+
+type Ui = Harness<'static, Window>;
+
+/// A window of 1280 x 800 on a software adapter; no adapter is a failure.
+fn open(state: AppState) -> Ui {
+    open_sized(state, 1280.0, 800.0)
+}
+
+fn open_sized(state: AppState, width: f32, height: f32) -> Ui {
+    let mut setup = egui_kittest::wgpu::default_wgpu_setup();
+    if let egui_wgpu::WgpuSetup::CreateNew(new) = &mut setup {
+        new.device_descriptor = std::sync::Arc::new(context::device_descriptor);
+    }
+    let mut ui = HarnessBuilder::default()
+        .with_size([width, height])
+        .wgpu_setup(setup)
+        .build_eframe(|creation| Window::new(creation, state, Lost::default()).unwrap());
+    settle(&mut ui);
+    ui
+}
+
+/// Small maps: what is tested here does not depend on their size.
+fn small() -> AppState {
+    AppState { texel_budget: 6 * 64 * 64, environment: Environment::DirectionColour, ..AppState::default() }
+}
+
+/// Steps until no job runs and no map is missing.
+fn settle(ui: &mut Ui) {
+    let start = Instant::now();
+    ui.step();
+    while ui.state().explorer().is_busy() {
+        assert!(start.elapsed() < Duration::from_secs(120), "the window does not come to rest");
+        std::thread::sleep(Duration::from_millis(5));
+        ui.step();
+    }
+    ui.run_steps(4);
+}
+
+fn run(ui: &mut Ui, command: impl Into<Command>) {
+    let ctx = ui.ctx.clone();
+    ui.state_mut().explorer_mut().run(&ctx, command.into());
+    settle(ui);
+}
+
+fn probe(ui: &Ui) -> Vec3<f64> {
+    ui.state().explorer().state().probe_f64()
+}
+
+/// The rectangle on the screen of a panel's picture.
+fn panel_rect(ui: &Ui, mapping: MappingId) -> egui::Rect {
+    ui.get_by_label(&format!("Panel: {}", mapping.info().name)).rect()
+}
+
+/// Where a direction lies on the screen in a mapping's panel.
+fn place(ui: &Ui, mapping: MappingId, dir: Vec3<f64>) -> egui::Pos2 {
+    let info = mapping.info();
+    let view = ui.state().explorer().state().panel(mapping);
+    let aspect = info.layout.picture_aspect(info.aspect) as f32;
+    let window =
+        sixfold::app::panel_view::PanelWindow::new(panel_rect(ui, mapping), &view, aspect);
+    window.screen_from_picture(info.layout.picture_from_chart(mapping.forward(dir).unwrap()).unwrap())
+}
+
+#[test]
+fn the_first_window_shows_the_seeds_six_panels_and_the_probe() {
+    let mut ui = open(small());
+    ui.get_by_label("Viewport");
+    for &mapping in &MappingId::ALL[..6] {
+        ui.get_by_label(&format!("Panel: {}", mapping.info().name));
+    }
+    assert!(ui.query_by_label("Panel: Octahedral").is_none(), "the seventh is not open");
+    ui.get_by_label("The row of +y matches.");
+    let picture = ui.render().unwrap();
+    let colors: std::collections::HashSet<_> = picture.pixels().map(|p| p.0).collect();
+    assert!(colors.len() > 1000, "the window shows {} colours", colors.len());
+}
+
+#[test]
+fn the_probe_dragged_in_one_panel_is_read_in_all_others() {
+    let mut ui = open(small());
+    for wanted in [[0.9, 0.3, 0.2], [-0.2, -0.8, 0.3], [0.1, 0.2, -0.9]] {
+        let wanted = Vec3::<f64>::from_f64(wanted).normalized();
+        let before = ui.render().unwrap();
+        let start = place(&ui, MappingId::Cube, Vec3::new(0.0, 0.0, 1.0));
+        let end = place(&ui, MappingId::Cube, wanted);
+        ui.drag_at(start);
+        ui.step();
+        ui.hover_at(end);
+        ui.step();
+        ui.drop_at(end);
+        settle(&mut ui);
+        let found = probe(&ui);
+        // A panel of about 200 points shows four faces across: a point is 0.03 rad.
+        assert!(sixfold::math::angle_rad(found.to_f64(), wanted.to_f64()) < 0.03, "{found:?}");
+        let picture = ui.render().unwrap();
+        for &mapping in &MappingId::ALL[..6] {
+            let at = place(&ui, mapping, found);
+            let ring = |picture: &image::RgbaImage| {
+                // The ring of the mark has a radius of 6 points; it is white, or grey where the map shares a texel.
+                (0..48)
+                    .filter(|i| {
+                        let (sin, cos) = (*i as f32 / 48.0 * std::f32::consts::TAU).sin_cos();
+                        let (x, y) = ((at.x + 6.0 * cos) as u32, (at.y + 6.0 * sin) as u32);
+                        let [r, g, b, _] = picture.get_pixel(x, y).0;
+                        r.abs_diff(g) < 8 && g.abs_diff(b) < 8 && r > 120
+                    })
+                    .count()
+            };
+            assert!(ring(&picture) >= 20, "{mapping}: no mark at {at:?}: {}", ring(&picture));
+            assert!(ring(&before) < ring(&picture), "{mapping}: the mark was there before");
+        }
+    }
+}
+
+#[test]
+fn the_sign_table_lights_the_row_of_every_face_and_explains_ties() {
+    let mut ui = open(small());
+    for (dir, name) in [
+        ([1.0, 0.1, 0.2], "+x"),
+        ([-1.0, 0.1, 0.2], "-x"),
+        ([0.1, 1.0, 0.2], "+y"),
+        ([0.1, -1.0, 0.2], "-y"),
+        ([0.1, 0.2, 1.0], "+z"),
+        ([0.1, 0.2, -1.0], "-z"),
+    ] {
+        run(&mut ui, Action::SetProbe { dir, eye_ray: None });
+        ui.get_by_label(&format!("The row of {name} matches."));
+        ui.get_by_label(&format!("▶ {name}"));
+        assert!(ui.query_by_label_contains("A tie").is_none());
+    }
+    // Where +x, +y and +z meet the paper's strict comparison prefers +x, hardware +z.
+    run(&mut ui, Action::SetProbe { dir: [1.0, 1.0, 1.0], eye_ray: None });
+    ui.get_by_label("The row of +x matches.");
+    ui.get_by_label_contains("A tie: +x and +z and +y meet here");
+}
+
+#[test]
+fn every_mapping_has_a_panel_and_its_steps_and_none_fails_when_tiny() {
+    let mut state = small();
+    state.panels.iter_mut().for_each(|p| p.open = true);
+    let mut ui = open(state);
+    for &mapping in MappingId::ALL {
+        ui.get_by_label(&format!("Panel: {}", mapping.info().name));
+        run(&mut ui, Action::SetMapping(mapping));
+        let steps = mapping.steps(probe(&ui));
+        assert!(steps.len() >= 3);
+        for step in steps {
+            assert!(
+                ui.query_all_by_label_contains(step.formula).next().is_some(),
+                "{mapping}: {}",
+                step.formula
+            );
+        }
+    }
+    for (width, height) in [(300.0, 200.0), (40.0, 30.0), (1.0, 1.0), (1280.0, 800.0)] {
+        ui.set_size(egui::vec2(width, height));
+        settle(&mut ui);
+    }
+    assert_eq!(ui.state().explorer().messages(), []);
+}
+
+#[test]
+fn a_bad_file_is_reported_and_leaves_the_scene_as_it_was() {
+    let mut ui = open(small());
+    let before = ui.state().explorer().state().clone();
+    let folder = tempfile::tempdir().unwrap();
+    for (name, bytes) in [
+        ("damaged.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n".as_slice()),
+        ("damaged.png", b"\x89PNG\r\n\x1a\nnot a picture".as_slice()),
+        ("damaged.json", b"{".as_slice()),
+        ("missing.exr", b"".as_slice()),
+    ] {
+        let path = folder.path().join(name);
+        if name != "missing.exr" {
+            std::fs::write(&path, bytes).unwrap();
+        }
+        run(&mut ui, Command::Open(path));
+        settle(&mut ui);
+        let messages = ui.state().explorer().messages();
+        let last = messages.last().unwrap_or_else(|| panic!("{name} was not reported"));
+        assert!(last.is_error && last.text.contains(name), "{}", last.text);
+        assert!(!last.text.contains('\n'));
+        ui.get_by_label_contains(name);
+        assert_eq!(*ui.state().explorer().state(), before, "{name}");
+    }
+}
+
+#[test]
+fn a_still_window_draws_nothing_and_a_probe_move_redraws_no_map() {
+    let mut ui = open(small());
+    let totals = |ui: &Ui| ui.state().explorer().report().totals;
+    let still = totals(&ui);
+    ui.run_steps(10);
+    assert_eq!(totals(&ui).submissions, still.submissions, "a still window drew");
+    assert!(!ui.ctx.has_requested_repaint(), "a still window asks for frames");
+    run(&mut ui, Action::SetProbe { dir: [0.0, 0.0, 1.0], eye_ray: None });
+    let moved = totals(&ui);
+    assert_eq!((moved.map_bakes, moved.panel_draws), (still.map_bakes, still.panel_draws));
+    assert!(moved.viewport_draws > still.viewport_draws, "the probe's mark did not move");
+    run(&mut ui, Action::Orbit { dx_rad: 0.3, dy_rad: 0.0 });
+    assert_eq!(totals(&ui).map_bakes, still.map_bakes, "an orbit drew a map");
+    assert_eq!(totals(&ui).panel_draws, still.panel_draws, "an orbit drew a panel");
+    // A hidden panel takes its texture along, and shown again it is drawn again.
+    let textures = ui.state().explorer().report().textures;
+    run(&mut ui, Action::SetPanelOpen(MappingId::Latlong, false));
+    assert_eq!(ui.state().explorer().report().textures, textures - 2, "the panel and its map");
+    run(&mut ui, Action::SetPanelOpen(MappingId::Latlong, true));
+    assert_eq!(totals(&ui).map_bakes, still.map_bakes + 1);
+}
+
+#[test]
+fn keys_move_the_probe_by_texels_and_undo_takes_changes_back() {
+    let mut ui = open(small());
+    let before = probe(&ui);
+    ui.key_press(egui::Key::ArrowRight);
+    settle(&mut ui);
+    let size = sixfold::gpu::map_size(MappingId::Ccm, 6 * 64 * 64);
+    let columns = |dir| MappingId::Ccm.forward::<f64>(dir).unwrap().u * f64::from(size[0]);
+    assert!((columns(probe(&ui)) - columns(before) - 1.0).abs() < 1e-3);
+    run(&mut ui, Action::SetMapping(MappingId::Cube));
+    ui.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    settle(&mut ui);
+    assert_eq!(ui.state().explorer().state().mapping, MappingId::Ccm);
+}
+
+#[test]
+fn controls_are_found_by_their_labels_and_do_what_they_say() {
+    let mut ui = open(small());
+    ui.get_by_label("great circles A to F").click();
+    ui.run_steps(3);
+    assert!(ui.state().explorer().state().overlays.great_circles);
+    ui.get_by_label("the seed's numbers").click();
+    settle(&mut ui);
+    ui.get_by_label("convention paper");
+    ui.get_by_label("printed and right").click();
+    settle(&mut ui);
+    ui.get_by_label("Eq. 6");
+    ui.get_by_label("Maximise Cube map").click();
+    settle(&mut ui);
+    assert!(ui.query_by_label("Viewport").is_none(), "a maximised panel hides the rest");
+    ui.get_by_label("Show all panels").click();
+    settle(&mut ui);
+    ui.get_by_label("Viewport");
+}
+
+#[test]
+fn a_lost_device_ends_in_a_message() {
+    let mut ui = open(small());
+    ui.state().explorer().gpu().device.destroy();
+    let start = Instant::now();
+    while !ui.state().explorer().is_lost() && start.elapsed() < Duration::from_secs(10) {
+        // The device tells of its end when it is asked.
+        drop(ui.state().explorer().gpu().device.poll(wgpu::PollType::Poll));
+    }
+    assert!(ui.state().explorer().is_lost());
+    ui.run_steps(3);
+    let rescued = ui.state().explorer().rescue();
+    let path = rescued.rsplit(' ').next().unwrap();
+    let text = std::fs::read_to_string(path).unwrap();
+    assert_eq!(AppState::from_json(&text).unwrap(), *ui.state().explorer().state());
+}
