@@ -178,6 +178,37 @@ fn png_of_every_kind() {
 }
 
 #[test]
+fn interlaced_png() {
+    // Two grey texels: the first comes in pass 1, the second in pass 6, each line after its filter byte.
+    let lines = [0, 40, 0, 200_u8];
+    let (mut low, mut high) = (1_u32, 0_u32); // Adler-32
+    for byte in lines {
+        low += u32::from(byte);
+        high += low;
+    }
+    let mut zlib = vec![0x78, 0x01, 1, 4, 0, 0xfb, 0xff]; // one stored block of 4 bytes
+    zlib.extend(lines);
+    zlib.extend((high << 16 | low).to_be_bytes());
+    let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
+    let mut chunk = |kind: &[u8; 4], body: &[u8]| {
+        bytes.extend((body.len() as u32).to_be_bytes());
+        let start = bytes.len();
+        bytes.extend(kind);
+        bytes.extend(body);
+        bytes.extend(crc32(&bytes[start..]).to_be_bytes());
+    };
+    chunk(b"IHDR", &[0, 0, 0, 2, 0, 0, 0, 1, 8, 0, 0, 0, 1]);
+    chunk(b"IDAT", &zlib);
+    chunk(b"IEND", &[]);
+    let image = open(&bytes).unwrap().image;
+    let back = image
+        .pixels()
+        .iter()
+        .map(|p| (srgb_from_linear(p[0]) * 255.0).round());
+    assert_eq!(back.collect::<Vec<_>>(), [40.0, 200.0]);
+}
+
+#[test]
 fn jpeg_colors_come_back() {
     let image = open(&plain_jpeg()).unwrap().image;
     let to_bytes = |rgb: [f32; 3]| rgb.map(|c| srgb_from_linear(c) * 255.0);

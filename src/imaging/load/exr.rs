@@ -2,7 +2,7 @@
 //!
 //! The crate that reads the blocks allocates whatever a header declares and has asserts that bad headers reach, so the
 //! header is judged between reading and decoding, the blocks are unpacked here one by one, and both run where a panic is
-//! caught (a panic inside of that crate's own thread pool would end the process).
+//! caught: damaged B44 blocks index out of bounds there (and a panic in that crate's own thread pool would end the process).
 
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -1,4 +1,4 @@
-//! The size that a file declares, by walks over its header that allocate nothing that the file could make large.
+//! The size that a file declares, by walks over its header; only OpenEXR's needs the crate that decodes it.
 
 use super::{Format, LoadProblem};
 

@@ -1,7 +1,7 @@
 //! A latlong environment from a file: Radiance HDR, OpenEXR, PNG, JPEG.
 //!
-//! The declared size is read from the header by code of our own that allocates nothing, and judged, before a decoder sees
-//! the file: failed allocations end the process and cannot be caught.
+//! The declared size is read from the header and judged before a decoder sees the file: failed allocations end the
+//! process and cannot be caught. Reading a header holds no more than the header's own bytes.
 
 mod exr;
 mod hdr;
