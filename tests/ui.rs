@@ -5,7 +5,7 @@
 
 use std::time::{Duration, Instant};
 
-use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, HarnessBuilder};
 use sixfold::app::action::Action;
 use sixfold::app::command::Command;
@@ -81,7 +81,7 @@ fn place(ui: &Ui, mapping: MappingId, dir: Vec3<f64>) -> egui::Pos2 {
 #[test]
 fn the_first_window_shows_the_seeds_six_panels_and_the_probe() {
     let mut ui = open(small());
-    ui.get_by_label("Viewport");
+    ui.get_by_label("The viewport");
     for &mapping in &MappingId::ALL[..6] {
         ui.get_by_label(&format!("Panel: {}", mapping.info().name));
     }
@@ -113,17 +113,20 @@ fn the_probe_dragged_in_one_panel_is_read_in_all_others() {
         for &mapping in &MappingId::ALL[..6] {
             let at = place(&ui, mapping, found);
             let ring = |picture: &image::RgbaImage| {
-                // The ring of the mark has a radius of 6 points; it is white, or grey where the map shares a texel.
+                // The ring of the mark has a radius of 6 points and is 1.5 points wide; it is white, or grey where the
+                // map shares a texel.
+                let is_mark = |radius: f32, turn: f32| {
+                    let (sin, cos) = (turn * std::f32::consts::TAU).sin_cos();
+                    let (x, y) = (at.x + radius * cos, at.y + radius * sin);
+                    let [r, g, b, _] = picture.get_pixel(x as u32, y as u32).0;
+                    r.abs_diff(g) < 8 && g.abs_diff(b) < 8 && r > 100
+                };
                 (0..48)
-                    .filter(|i| {
-                        let (sin, cos) = (*i as f32 / 48.0 * std::f32::consts::TAU).sin_cos();
-                        let (x, y) = ((at.x + 6.0 * cos) as u32, (at.y + 6.0 * sin) as u32);
-                        let [r, g, b, _] = picture.get_pixel(x, y).0;
-                        r.abs_diff(g) < 8 && g.abs_diff(b) < 8 && r > 120
-                    })
+                    .map(|i| i as f32 / 48.0)
+                    .filter(|turn| [5.5, 6.0, 6.5].iter().any(|radius| is_mark(*radius, *turn)))
                     .count()
             };
-            assert!(ring(&picture) >= 20, "{mapping}: no mark at {at:?}: {}", ring(&picture));
+            assert!(ring(&picture) >= 24, "{mapping}: no mark at {at:?}: {}", ring(&picture));
             assert!(ring(&before) < ring(&picture), "{mapping}: the mark was there before");
         }
     }
@@ -254,10 +257,10 @@ fn controls_are_found_by_their_labels_and_do_what_they_say() {
     ui.get_by_label("Eq. 6");
     ui.get_by_label("Maximise Cube map").click();
     settle(&mut ui);
-    assert!(ui.query_by_label("Viewport").is_none(), "a maximised panel hides the rest");
+    assert!(ui.query_by_label("The viewport").is_none(), "a maximised panel hides the rest");
     ui.get_by_label("Show all panels").click();
     settle(&mut ui);
-    ui.get_by_label("Viewport");
+    ui.get_by_label("The viewport");
 }
 
 #[test]

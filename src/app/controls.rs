@@ -72,10 +72,10 @@ fn mapping_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let mut budget = state.texel_budget as f32 / 1e6;
     let (low, high) = TEXEL_BUDGET_RANGE;
     let range = low as f32 / 1e6..=high as f32 / 1e6;
-    ui.label("texels of every map, in millions");
+    let label = ui.label("texels of every map, in millions");
     let slider = Slider::new(&mut budget, range).logarithmic(true).max_decimals(4);
     // Each new budget bakes every map anew: wait until the slider is let go.
-    let response = ui.add(slider.update_while_editing(false));
+    let response = ui.add(slider.update_while_editing(false)).labelled_by(label.id);
     if response.changed() && !response.dragged() || response.drag_stopped() {
         let texels = (budget * 1e6) as u32;
         if texels != state.texel_budget {
@@ -115,9 +115,10 @@ fn scene_ui(ui: &mut Ui, model: &mut Model<'_>) {
 fn light_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let state = model.state;
     let mut ev = state.exposure_ev;
-    ui.label("exposure");
+    let label = ui.label("exposure");
     let range = EXPOSURE_RANGE.0..=EXPOSURE_RANGE.1;
-    if ui.add(Slider::new(&mut ev, range).suffix(" EV").max_decimals(2)).changed() {
+    let slider = ui.add(Slider::new(&mut ev, range).suffix(" EV").max_decimals(2));
+    if slider.labelled_by(label.id).changed() {
         model.push(Action::SetExposure(ev));
     }
     let tone = choose(ui, "tone curve", &state.tone, ToneCurve::ALL, |t| t.name().to_owned());

@@ -216,13 +216,16 @@ fn tie_ui(ui: &mut Ui, dir: Vec3<f64>, face: u32) {
 fn steps_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let mut inspector = model.state.inspector;
     ui.horizontal_wrapped(|ui| {
+        let label = ui.label("of");
         egui::ComboBox::from_id_salt("steps of")
             .selected_text(inspector.mapping.info().name)
             .show_ui(ui, |ui| {
                 for &mapping in MappingId::ALL {
                     ui.selectable_value(&mut inspector.mapping, mapping, mapping.info().name);
                 }
-            });
+            })
+            .response
+            .labelled_by(label.id);
         for (precision, name) in
             [(Precision::F32, "f32"), (Precision::F64, "f64"), (Precision::Both, "f32 | f64")]
         {

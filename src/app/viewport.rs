@@ -26,7 +26,7 @@ pub fn viewport_ui(ui: &mut Ui, model: &mut Model<'_>) {
     }
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::Role::Image, true, "Viewport")
+        egui::WidgetInfo::labeled(egui::Role::Image, true, "The viewport")
     });
     model.view_ui(ui, ViewKey::Viewport, rect);
     let on_divider = divider_ui(ui, model, rect);

@@ -29,14 +29,20 @@ impl BadTexels {
         *self == Self::default()
     }
 
-    /// For the status bar: `3 NaN, 1 infinite, 2 negative, 0 too bright`, or nothing when clean.
+    /// For the status bar, such as `texels replaced: 3 NaN, 2 negative`, or nothing when clean.
     pub fn summary(&self) -> Option<String> {
-        (!self.is_clean()).then(|| {
-            format!(
-                "{} NaN, {} infinite, {} negative, {} too bright",
-                self.nan, self.infinite, self.negative, self.too_bright
-            )
-        })
+        let kinds = [
+            (self.nan, "NaN"),
+            (self.infinite, "infinite"),
+            (self.negative, "negative"),
+            (self.too_bright, "too bright"),
+        ];
+        let found: Vec<String> = kinds
+            .iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, kind)| format!("{count} {kind}"))
+            .collect();
+        (!found.is_empty()).then(|| format!("texels replaced: {}", found.join(", ")))
     }
 }
 

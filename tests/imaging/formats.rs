@@ -247,7 +247,7 @@ fn bad_texels_are_counted_replaced_and_remembered() {
     );
     assert_eq!(
         bad.summary().unwrap(),
-        "2 NaN, 1 infinite, 1 negative, 1 too bright"
+        "texels replaced: 2 NaN, 1 infinite, 1 negative, 1 too bright"
     );
     let now = loaded.image.pixels();
     assert_eq!(now[3], [0.0, 1.0, 2.0]);
