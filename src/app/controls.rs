@@ -136,6 +136,7 @@ fn overlays_ui(ui: &mut Ui, model: &mut Model<'_>) {
         (&mut overlays.vectors, "incident, normal, reflected"),
         (&mut overlays.axes, "axes"),
         (&mut overlays.probe, "probe"),
+        (&mut overlays.names, "names of the charts"),
     ] {
         ui.checkbox(on, name);
     }

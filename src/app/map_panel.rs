@@ -35,7 +35,9 @@ pub fn map_panel_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
     let window = window_of(&view, rect);
     pointer(ui, model, view, &window, &response);
     let painter = ui.painter_at(rect);
-    paint_chart_names(&painter, mapping, &window);
+    if model.state.overlays.names {
+        paint_chart_names(&painter, mapping, &window);
+    }
     if model.state.overlays.probe {
         paint_probe(&painter, model, mapping, &window);
     }

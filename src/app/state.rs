@@ -67,6 +67,8 @@ pub struct Overlays {
     pub axes: bool,
     /// The probe's mark, the outline of its face and its texel.
     pub probe: bool,
+    /// Names of charts and of compared mappings.
+    pub names: bool,
 }
 
 impl Default for Overlays {
@@ -78,6 +80,7 @@ impl Default for Overlays {
             vectors: true,
             axes: true,
             probe: true,
+            names: true,
         }
     }
 }
@@ -91,6 +94,7 @@ impl Overlays {
         vectors: false,
         axes: false,
         probe: false,
+        names: false,
     };
 }
 

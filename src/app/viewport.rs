@@ -100,9 +100,8 @@ fn divider_ui(ui: &mut Ui, model: &mut Model<'_>, rect: Rect) -> bool {
     let painter = ui.painter_at(rect);
     let line = vec![pos2(x, rect.min.y), pos2(x, rect.max.y)];
     edged_line(&painter, line, 1.5, Color32::WHITE);
-    for (mapping, anchor, side) in
-        [(model.state.mapping, Align2::RIGHT_TOP, -1.0), (compare, Align2::LEFT_TOP, 1.0)]
-    {
+    let sides = [(model.state.mapping, Align2::RIGHT_TOP, -1.0), (compare, Align2::LEFT_TOP, 1.0)];
+    for (mapping, anchor, side) in sides.into_iter().filter(|_| model.state.overlays.names) {
         let [w, h] = model.map_size(mapping);
         let charts = mapping.info().chart_count();
         let text = format!("{}  {charts} × {w}×{h}", mapping.info().name);
