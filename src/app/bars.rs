@@ -65,7 +65,7 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
             }
         });
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.label(RichText::new(model.adapter).weak().small());
+            ui.label(RichText::new(model.adapter).small().color(egui::Color32::from_gray(150)));
         });
     });
 }
@@ -97,14 +97,14 @@ pub fn status_ui(ui: &mut Ui, model: &mut Model<'_>) {
         }
         ui.label(RichText::new(model.plan).small());
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.label(RichText::new(format!("frame {}", model.frames)).small().weak());
+            ui.label(RichText::new(format!("frame {}", model.frames)).small().color(egui::Color32::from_gray(165)));
             ui.separator();
             let hint = if model.state.probe_follows {
                 "the probe follows the pointer; click keeps it"
             } else {
                 "the probe is kept; Esc lets it follow"
             };
-            ui.label(RichText::new(hint).small().weak());
+            ui.label(RichText::new(hint).small().color(egui::Color32::from_gray(165)));
         });
     });
 }

@@ -289,7 +289,10 @@ fn step_ui(ui: &mut Ui, model: &mut Model<'_>, index: usize, step: &Step, values
     ui.push_id(("step", index), |ui| {
         ui.horizontal_wrapped(|ui| {
             copy_button(ui, model, || step_text(step));
-            ui.label(RichText::new(step.name).strong());
+            // "u  u = ..." would say it twice.
+            if !step.formula.starts_with(&format!("{} =", step.name)) {
+                ui.label(RichText::new(step.name).strong());
+            }
             ui.label(mono(step.formula));
         });
         for (kind, value) in values {

@@ -15,7 +15,7 @@ impl Mapping for Matcap {
     const INFO: MappingInfo = MappingInfo {
         id: "matcap",
         name: "Matcap",
-        about: "x and y as they are: the cheapest map, and half the world is missing.",
+        about: "x and y as they are: the cheapest map, and half the world is missing. The half behind the viewer is seen as in a mirror.",
         source: "simple sphere map; Scali, Cubemaps",
         charts: &["disc"],
         aspect: 1.0,

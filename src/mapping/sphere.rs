@@ -15,7 +15,7 @@ impl Mapping for Sphere {
     const INFO: MappingInfo = MappingInfo {
         id: "sphere",
         name: "Sphere map",
-        about: "A mirror ball seen from far away: one picture, equal area, torn apart at its rim.",
+        about: "A mirror ball seen from far away: one picture, equal area, torn apart at its rim. As in any mirror, writing is reversed.",
         source: "OpenGL sphere map; Hoff 1998",
         charts: &["ball"],
         aspect: 1.0,
