@@ -53,13 +53,29 @@ fn sign_or_one(x: f32) -> f32 {
     return select(1.0, -1.0, x < 0.0);
 }
 
+// x < 0, asked of the bits: right below the normal numbers too, where a comparison may see zero.
+fn is_below_zero(x: f32) -> bool {
+    return bitcast<u32>(x) > 0x80000000u;
+}
+
 fn hypotenuse(a: f32, b: f32) -> f32 {
     let large = max(abs(a), abs(b));
-    if large <= 0.0 {
-        return 0.0;
+    // Below the normal numbers a division may do anything, and an error of that size does not show.
+    if large < SMALLEST_NORMAL {
+        return large;
     }
     let ratio = min(abs(a), abs(b)) / large;
     return large * sqrt(1.0 + ratio * ratio);
+}
+
+// p at length 1, or (1, 0) for the origin and below the normal numbers, where a division may do anything.
+fn unit_in_plane(p: vec2f) -> vec2f {
+    let large = max(abs(p.x), abs(p.y));
+    if large < SMALLEST_NORMAL {
+        return vec2f(1.0, 0.0);
+    }
+    let q = p / large;
+    return q / sqrt(q.x * q.x + q.y * q.y);
 }
 
 // Arctangent of t in radians, |t| <= 1.
@@ -68,12 +84,12 @@ fn atan_unit(t: f32) -> f32 {
     return t + t * s * atan_series(s);
 }
 
-// Angle of the point (x, y) in radians, in [-pi, pi]; 0 at the origin.
+// Angle of the point (x, y) in radians, in [-pi, pi]; 0 at the origin and below the normal numbers.
 fn angle_of(y: f32, x: f32) -> f32 {
     let ay = abs(y);
     let ax = abs(x);
     let large = max(ax, ay);
-    if large <= 0.0 {
+    if large < SMALLEST_NORMAL {
         return 0.0;
     }
     var angle = atan_unit(min(min(ax, ay) / large, 1.0));

@@ -1,22 +1,280 @@
-//! Keeps WGSL and Rust together without a GPU.
-use sixfold::gpu::shader;
-use sixfold::mapping::MappingId;
+//! Keeps WGSL and Rust together, without a GPU: every pass is valid, says the same numbers, and leaves the built-in inverse
+//! trigonometric functions alone.
 
-fn parse(text: &str) -> Result<naga::Module, String> {
-    let module = naga::front::wgsl::parse_str(text).map_err(|e| e.emit_to_string(text))?;
-    naga::valid::Validator::new(
-        naga::valid::ValidationFlags::all(),
-        naga::valid::Capabilities::empty(),
-    )
-    .validate(&module)
-    .map_err(|e| e.emit_to_string(text))?;
-    Ok(module)
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test's helpers say what they expect too"
+)]
+
+mod wgsl;
+
+use std::f32::consts;
+use std::mem::{offset_of, size_of};
+
+use naga::Literal;
+use sixfold::gpu::{compute, shader};
+use sixfold::mapping::{Domain, MappingId, ccm};
+use sixfold::math::{ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS};
+
+/// Every pass of the app: name and whole text. A new pass is a new line here.
+fn passes() -> Vec<(String, String)> {
+    let mut passes = vec![("plain".to_owned(), shader::plain(""))];
+    for &id in MappingId::ALL {
+        passes.push((format!("evaluate {id}"), compute::GpuEvaluator::source(id)));
+        for &source in MappingId::ALL {
+            let roles = [("source", source), ("target", id)];
+            passes.push((
+                format!("{source} to {id}"),
+                shader::with_mappings(&roles, ""),
+            ));
+        }
+    }
+    passes
+}
+
+/// Built-ins that a shading language may answer with 4096 ULP or an absolute error.
+const INVERSE_BUILT_INS: [&str; 7] = ["acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh"];
+/// The same for the files that have a twin in Rust, which must agree to a few ULP.
+const TWIN_BUILT_INS: [&str; 12] = [
+    "sin",
+    "cos",
+    "tan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "exp",
+    "exp2",
+    "log",
+    "log2",
+    "pow",
+    "normalize",
+];
+
+#[test]
+fn every_pass_is_valid_and_every_file_is_in_one() {
+    let passes = passes();
+    for (name, text) in &passes {
+        if let Err(fault) = wgsl::parse(text) {
+            panic!("{name}: {fault}");
+        }
+    }
+    let files = wgsl::files();
+    assert!(files.len() > MappingId::ALL.len());
+    for (path, text) in files {
+        let used = passes.iter().any(|(_, pass)| pass.contains(&text));
+        assert!(
+            used,
+            "shaders/{path} is in no pass; list its pass in `passes`"
+        );
+    }
 }
 
 #[test]
-fn every_assembled_pass_is_valid() {
-    parse(&shader::plain("")).unwrap();
+fn a_broken_pass_is_reported() {
+    let unknown = wgsl::parse(&shader::plain("fn f() -> f32 { return latlong(1.0); }"));
+    assert!(unknown.unwrap_err().contains("latlong"));
+    let wrong_type = shader::plain("fn f() -> f32 { return ChartPoint(0u, 1.0, 1.0); }");
+    assert!(wgsl::parse(&wrong_type).is_err());
+    let without_twin = shader::for_mapping(MappingId::Ccm, "").replace("fn ccm_inverse", "fn gone");
+    assert!(wgsl::parse(&without_twin).is_err());
+}
+
+#[test]
+fn every_mapping_has_both_functions() {
     for &id in MappingId::ALL {
-        parse(&shader::for_mapping(id, "")).unwrap();
+        let module = wgsl::parse(&shader::for_mapping(id, "")).unwrap();
+        for (function, argument, result) in [
+            ("forward", None, Some("ChartPoint")),
+            ("inverse", Some("ChartPoint"), None),
+        ] {
+            let name = format!("{}_{function}", id.prefix());
+            let (_, found) = module
+                .functions
+                .iter()
+                .find(|(_, f)| f.name.as_deref() == Some(&*name))
+                .unwrap_or_else(|| panic!("no function {name}"));
+            let type_name = |ty: naga::Handle<naga::Type>| module.types[ty].name.as_deref();
+            assert_eq!(found.arguments.len(), 1, "{name}");
+            assert_eq!(type_name(found.arguments[0].ty), argument, "{name}");
+            assert_eq!(
+                type_name(found.result.as_ref().unwrap().ty),
+                result,
+                "{name}"
+            );
+        }
     }
+}
+
+/// What differs between the constants of a pass for this mapping and Rust.
+fn unequal_constants(id: MappingId, pass: &str) -> Vec<String> {
+    let info = id.info();
+    let place = |id: MappingId| MappingId::ALL.iter().position(|m| *m == id).unwrap() as u32;
+    let mut expected = vec![
+        ("PI".to_owned(), Literal::F32(consts::PI)),
+        ("FRAC_PI_2".to_owned(), Literal::F32(consts::FRAC_PI_2)),
+        ("FRAC_1_PI".to_owned(), Literal::F32(consts::FRAC_1_PI)),
+        ("SQRT_2".to_owned(), Literal::F32(consts::SQRT_2)),
+        (
+            "FRAC_1_SQRT_2".to_owned(),
+            Literal::F32(consts::FRAC_1_SQRT_2),
+        ),
+        (
+            "SMALLEST_NORMAL".to_owned(),
+            Literal::F32(f32::MIN_POSITIVE),
+        ),
+        ("LARGEST_FINITE".to_owned(), Literal::F32(f32::MAX)),
+        (
+            "CCM_HALF_EDGE_RAD".to_owned(),
+            Literal::F32(ccm::HALF_EDGE_RAD as f32),
+        ),
+        ("NO_CHART".to_owned(), Literal::U32(shader::NO_CHART)),
+        ("MAP_ID".to_owned(), Literal::U32(place(id))),
+        ("MAP_CHARTS".to_owned(), Literal::U32(info.chart_count())),
+        (
+            "MAP_IS_DISC".to_owned(),
+            Literal::Bool(info.domain == Domain::Disc),
+        ),
+    ];
+    for &each in MappingId::ALL {
+        expected.push((shader::id_name(each), Literal::U32(place(each))));
+    }
+    let found = wgsl::constants(&wgsl::parse(pass).unwrap());
+    expected
+        .iter()
+        .filter(|constant| !found.contains(constant))
+        .map(|constant| format!("{id}: {constant:?} is not in {found:?}"))
+        .collect()
+}
+
+#[test]
+fn ids_and_constants_are_rusts() {
+    for &id in MappingId::ALL {
+        let pass = shader::for_mapping(id, "");
+        assert_eq!(unequal_constants(id, &pass), Vec::<String>::new());
+    }
+    let pass = shader::for_mapping(MappingId::Ccm, "");
+    for (from, to) in [
+        ("const PI: f32 = 3.1415927f", "const PI: f32 = 3.1415925f"),
+        (
+            "const MAPPING_LATLONG: u32 = 0u",
+            "const MAPPING_LATLONG: u32 = 1u",
+        ),
+        ("const MAP_CHARTS: u32 = 6u", "const MAP_CHARTS: u32 = 5u"),
+        (
+            "const MAP_IS_DISC: bool = false",
+            "const MAP_IS_DISC: bool = true",
+        ),
+    ] {
+        assert!(pass.contains(from), "{from}");
+        let faults = unequal_constants(MappingId::Ccm, &pass.replace(from, to));
+        assert!(!faults.is_empty(), "{to} was not noticed");
+    }
+}
+
+#[test]
+fn the_polynomials_are_rusts() {
+    let module = wgsl::parse(&shader::plain("")).unwrap();
+    for (name, coefficients) in [
+        ("atan_series", &ATAN_COEFFICIENTS[..]),
+        ("sin_quarter_series", &SIN_QUARTER_COEFFICIENTS),
+        ("cos_quarter_series", &COS_QUARTER_COEFFICIENTS),
+    ] {
+        let (_, function) = module
+            .functions
+            .iter()
+            .find(|(_, f)| f.name.as_deref() == Some(name))
+            .unwrap();
+        let (mut terms, mut sums, mut products) = (Vec::new(), 0, 0);
+        for (_, expression) in function.expressions.iter() {
+            match expression {
+                naga::Expression::Literal(Literal::F32(c)) => terms.push(*c),
+                naga::Expression::Binary { op, .. } => match op {
+                    naga::BinaryOperator::Add => sums += 1,
+                    naga::BinaryOperator::Multiply => products += 1,
+                    other => panic!("{name}: {other:?}"),
+                },
+                naga::Expression::FunctionArgument(0) => {}
+                other => panic!("{name}: {other:?}"),
+            }
+        }
+        let highest_first: Vec<f32> = coefficients.iter().rev().copied().collect();
+        assert_eq!(terms, highest_first, "{name}");
+        assert_eq!(
+            (sums, products),
+            (terms.len() - 1, terms.len() - 1),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn no_inverse_trigonometric_built_in_is_called() {
+    for (path, text) in wgsl::files() {
+        let called = wgsl::calls(&text, &INVERSE_BUILT_INS);
+        assert!(called.is_empty(), "shaders/{path} calls {called:?}");
+    }
+    let twins = MappingId::ALL.iter().map(|id| (id.prefix(), id.wgsl()));
+    for (name, text) in twins.chain([("math", shader::MATH), ("cube_face", shader::CUBE_FACE)]) {
+        let called = wgsl::calls(text, &TWIN_BUILT_INS);
+        assert!(called.is_empty(), "{name} calls {called:?}");
+    }
+    let header = shader::constants();
+    assert!(wgsl::calls(&header, &INVERSE_BUILT_INS).is_empty());
+}
+
+#[test]
+fn a_call_is_found_and_a_comment_is_not() {
+    let calls = |text: &str| wgsl::calls(text, &INVERSE_BUILT_INS);
+    assert_eq!(calls("let a = acos(x);"), ["acos"]);
+    assert_eq!(
+        calls("let a = 1.0 -atan2 (y, x) + atan(x);"),
+        ["atan", "atan2"]
+    );
+    assert_eq!(calls("/* a /* b */ */ asin(x)"), ["asin"]);
+    assert_eq!(calls("// acos(x)\nlet a = 1.0; /* atan(\n1.0) */"), [""; 0]);
+    assert_eq!(
+        calls("let b = atan_unit(x) + my_acos(x); let asin = 1.0;"),
+        [""; 0]
+    );
+}
+
+/// A struct with every trap of the uniform layout: vec3 before a scalar, a scalar before a vector, a matrix.
+#[repr(C)]
+struct Sample {
+    eye: [f32; 3],
+    scale: f32,
+    size: [f32; 2],
+    flags: u32,
+    unused: u32,
+    turn: [[f32; 4]; 4],
+}
+
+#[test]
+fn a_wrong_layout_is_reported() {
+    let text = "struct Sample { eye: vec3f, scale: f32, size: vec2f, flags: u32, unused: u32, turn: mat4x4f }
+                @group(0) @binding(0) var<uniform> sample: Sample;";
+    let members = [
+        ("eye", offset_of!(Sample, eye)),
+        ("scale", offset_of!(Sample, scale)),
+        ("size", offset_of!(Sample, size)),
+        ("flags", offset_of!(Sample, flags)),
+        ("unused", offset_of!(Sample, unused)),
+        ("turn", offset_of!(Sample, turn)),
+    ];
+    let size = size_of::<Sample>();
+    wgsl::assert_layout(text, "Sample", &members, size);
+    for (from, to) in [
+        ("eye: vec3f, scale: f32", "scale: f32, eye: vec3f"),
+        ("unused: u32, ", ""),
+        ("flags: u32", "flags: vec3u"),
+        ("turn: mat4x4f", "turn: mat4x4f, more: f32"),
+        ("struct Sample", "struct Other"),
+    ] {
+        let changed = text.replace(from, to);
+        assert_ne!(changed, text);
+        let found = wgsl::check_layout(&changed, "Sample", &members, size);
+        assert!(found.is_err(), "{changed}");
+    }
+    let wrong_size = wgsl::check_layout(text, "Sample", &members, size + 16);
+    assert!(wrong_size.is_err());
 }

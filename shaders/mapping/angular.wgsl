@@ -7,10 +7,7 @@ fn angular_forward(dir: vec3f) -> ChartPoint {
     let d = scaled_direction(dir);
     let across = hypotenuse(d.x, d.y);
     let rho = angle_of(across, d.z) * (0.5 * FRAC_1_PI);
-    var side = vec2f(1.0, 0.0);
-    if across > 0.0 {
-        side = d.xy / across;
-    }
+    let side = unit_in_plane(d.xy);
     return chart_point(0u, 0.5 + rho * side.x, 0.5 - rho * side.y);
 }
 

@@ -5,7 +5,7 @@ fn paraboloid_forward(dir: vec3f) -> ChartPoint {
         return no_chart();
     }
     let d = scaled_direction(dir);
-    let back = d.z < 0.0;
+    let back = is_below_zero(dir.z);
     let twice = 2.0 * (length_of(d) + abs(d.z));
     let x = select(d.x, -d.x, back);
     return chart_point(select(0u, 1u, back), 0.5 + x / twice, 0.5 - d.y / twice);

@@ -16,11 +16,8 @@ fn sphere_disc_offset(d: vec3f) -> vec2f {
         return d.xy / (2.0 * sqrt(d.x * d.x + d.y * d.y + (n - d.z) * (n - d.z)));
     }
     let rho = hypotenuse(d.x, d.y);
-    if rho <= 0.0 {
-        return vec2f(0.5, 0.0);
-    }
     let slope = rho / (n + d.z);
-    return (d.xy / rho) / (2.0 * sqrt(1.0 + slope * slope));
+    return unit_in_plane(d.xy) / (2.0 * sqrt(1.0 + slope * slope));
 }
 
 // Beyond the rim: the rim's own direction.

@@ -79,19 +79,21 @@ impl Gpu {
     /// The best device that works without a window. Interfaces come from WGPU_BACKEND, or Vulkan, Metal and DX12 first and
     /// GL when those have none; a GPU is preferred to a software adapter.
     pub fn headless() -> Result<Self, GpuError> {
-        let choices = match wgpu::Backends::from_env() {
-            Some(backends) => vec![backends],
-            None => vec![FIRST_CHOICE, wgpu::Backends::GL],
-        };
+        match wgpu::Backends::from_env() {
+            Some(backends) => Self::open(&[backends]),
+            None => Self::open(&[FIRST_CHOICE, wgpu::Backends::GL]),
+        }
+    }
+
+    /// The best device of the first of these groups of interfaces that has one.
+    pub fn open(choices: &[wgpu::Backends]) -> Result<Self, GpuError> {
         let mut failure = GpuError::NoAdapter {
             tried: choices.iter().copied().collect(),
         };
-        for backends in choices {
-            for adapter in adapters(backends) {
-                match Self::from_adapter(&adapter) {
-                    Ok(gpu) => return Ok(gpu),
-                    Err(error) => failure = error,
-                }
+        for adapter in choices.iter().flat_map(|backends| adapters(*backends)) {
+            match Self::from_adapter(&adapter) {
+                Ok(gpu) => return Ok(gpu),
+                Err(error) => failure = error,
             }
         }
         Err(failure)

@@ -3,7 +3,7 @@
 //! Azimuthal equidistant: centre +z, the whole rim -z.
 
 use super::{ChartPoint, Claims, Coverage, Domain, Layout, Mapping, MappingInfo, Step};
-use crate::math::{Real, Vec3};
+use crate::math::{Real, Vec3, unit_in_plane};
 use std::f64::consts::FRAC_1_PI;
 
 /// See the [module](self).
@@ -36,11 +36,7 @@ impl Mapping for Angular {
         let across = d.x.hypot(d.y);
         // The angle from both of its legs: acos(z/n) would lose half the digits at the centre and at the rim.
         let rho = across.atan2(d.z) * R::from_f64(0.5 * FRAC_1_PI);
-        let (x, y) = if across > R::zero() {
-            (d.x / across, d.y / across)
-        } else {
-            (R::one(), R::zero())
-        };
+        let (x, y) = unit_in_plane(d.x, d.y);
         Some(ChartPoint::new(0, R::half() + rho * x, R::half() - rho * y).clamped())
     }
 

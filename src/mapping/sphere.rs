@@ -6,7 +6,7 @@
 use super::{
     ChartPoint, Claims, Convention, Coverage, Domain, Layout, Mapping, MappingInfo, Step, WeakSpot,
 };
-use crate::math::{Real, Vec3};
+use crate::math::{Real, Vec3, unit_in_plane};
 
 /// See the [module](self).
 pub struct Sphere;
@@ -97,12 +97,10 @@ fn disc_offset<R: Real>(d: Vec3<R>) -> (R, R) {
     }
     // Ahead, n - z cancels; it equals rho^2/(n + z), and dividing m by rho leaves nothing that can vanish.
     let rho = d.x.hypot(d.y);
-    if rho <= R::zero() {
-        return (R::half(), R::zero());
-    }
+    let (x, y) = unit_in_plane(d.x, d.y);
     let slope = rho / (n + d.z);
     let m_over_rho = R::two() * (R::one() + slope * slope).sqrt();
-    ((d.x / rho) / m_over_rho, (d.y / rho) / m_over_rho)
+    (x / m_over_rho, y / m_over_rho)
 }
 
 /// Hoff's numbers: the same point with t counted upwards.

@@ -12,4 +12,4 @@ pub use arctan::{
 };
 pub use dual::Dual;
 pub use real::{Real, Textbook};
-pub use vec3::{Vec3, angle_rad};
+pub use vec3::{Vec3, angle_rad, unit_in_plane};

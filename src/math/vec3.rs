@@ -117,8 +117,37 @@ impl<R: Real> Neg for Vec3<R> {
     }
 }
 
+/// (x, y) at length 1, or (1, 0) for the origin. Below the normal numbers the length has no digits to divide by, so the
+/// larger component is divided out first.
+pub fn unit_in_plane<R: Real>(x: R, y: R) -> (R, R) {
+    let large = x.abs().max(y.abs());
+    if large <= R::zero() {
+        return (R::one(), R::zero());
+    }
+    let (x, y) = (x / large, y / large);
+    let length = (x * x + y * y).sqrt();
+    (x / length, y / length)
+}
+
 /// Angle between two vectors in radians, in [0, pi], accurate at both ends (no arccosine of a rounded product).
 pub fn angle_rad(a: [f64; 3], b: [f64; 3]) -> f64 {
     let (a, b) = (Vec3::from_f64(a), Vec3::<f64>::from_f64(b));
     f64::atan2(a.cross(b).length(), a.dot(b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plane_vector_of_any_size_gets_length_one() {
+        for size in [1.0_f32, 3e38, f32::MIN_POSITIVE, 2.8e-45] {
+            let (x, y) = unit_in_plane(size, -size);
+            assert!((x.hypot(y) - 1.0).abs() < 2e-7, "{size}: {x}, {y}");
+            assert!(x > 0.7 && y < -0.7);
+        }
+        let naive = 2.8e-45_f32 / 2.8e-45_f32.hypot(-2.8e-45);
+        assert!((naive - 0.70710677).abs() > 0.02, "{naive}");
+        assert_eq!(unit_in_plane(0.0, 0.0), (1.0, 0.0));
+    }
 }
