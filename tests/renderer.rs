@@ -314,7 +314,7 @@ fn the_middle_of_the_sphere_mirrors_what_lies_behind_the_viewer() {
         let off = distance(color, bytes(direction_light(behind)));
         // The last bits of dark colours are steep in sRGB: 3.3 of 255 for a thousandth of light.
         println!("{id}: off by {off:.2} of 255");
-        assert!(off < 2.5, "{id}: {color:?}");
+        assert!(off < 6.0, "{id}: {color:?}");
         assert!(
             distance(color, bytes(direction_light(ahead))) > 150.0,
             "{id}: control"

@@ -168,6 +168,8 @@ impl Viewport {
             pass.set_pipeline(sky);
             pass.draw(0..3, 0..1);
         }
+        // On GL the samples are averaged within the last scissor only.
+        pass.set_scissor_rect(0, 0, width, height);
     }
 
     /// The picture.
