@@ -2,7 +2,7 @@
 //! every comparison is shown to notice a fault.
 
 #![cfg(feature = "explorer")]
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 use sixfold::gpu::{
     EnvironmentSource, Frame, Gpu, MapPixels, Node, Overlays, PanelFrame, RenderError, Renderer,
