@@ -8,14 +8,14 @@ pub mod kit;
 pub mod map;
 pub mod overlay;
 mod panel;
-pub mod plan;
+mod plan;
 pub mod readback;
 pub mod renderer;
 pub mod report;
 pub mod shader;
 pub mod tone;
 pub mod uniforms;
-pub mod viewport;
+mod viewport;
 
 pub use compute::GpuEvaluator;
 pub use context::{Gpu, GpuError};

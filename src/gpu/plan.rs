@@ -45,6 +45,7 @@ pub(super) struct MapKey {
 pub(super) struct ViewportKey {
     frame: ViewportFrame,
     look: Look,
+    samples: u32,
     maps: Vec<MapKey>,
 }
 
@@ -78,8 +79,8 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    /// Compares. `frame` is normalized; without an environment nothing can be drawn.
-    pub fn new(drawn: &Drawn, frame: &Frame, environment: Option<u64>) -> Self {
+    /// Compares. `frame` is normalized, `samples` the viewport's in a pixel; without an environment nothing can be drawn.
+    pub fn new(drawn: &Drawn, frame: &Frame, samples: u32, environment: Option<u64>) -> Self {
         let mut plan = Self::default();
         let Some(environment) = environment else {
             return plan;
@@ -87,7 +88,7 @@ impl Plan {
         plan.maps(drawn, frame, environment);
         let look = frame.look();
         if let Some(viewport) = frame.viewport {
-            plan.viewport(drawn, viewport, look);
+            plan.viewport(drawn, viewport, samples, look);
         }
         for panel in &frame.panels {
             plan.panel(drawn, *panel, look);
@@ -125,7 +126,7 @@ impl Plan {
         }
     }
 
-    fn viewport(&mut self, drawn: &Drawn, frame: ViewportFrame, look: Look) {
+    fn viewport(&mut self, drawn: &Drawn, frame: ViewportFrame, samples: u32, look: Look) {
         let maps: Option<Vec<MapKey>> = frame
             .mappings()
             .map(|id| self.drawn.maps.get(&id).copied())
@@ -135,7 +136,12 @@ impl Plan {
             self.drawn.viewport.clone_from(&drawn.viewport);
             return;
         };
-        let key = Some(ViewportKey { frame, look, maps });
+        let key = Some(ViewportKey {
+            frame,
+            look,
+            samples,
+            maps,
+        });
         let list = if key == drawn.viewport {
             &mut self.skipped
         } else {

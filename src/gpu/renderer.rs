@@ -12,7 +12,7 @@ use super::readback::{
     MapPixels, Part, RgbaPixels, TexelRead, light_from_bytes, read_part, read_view,
 };
 use super::report::Report;
-use super::viewport::Viewport;
+use super::viewport::{Viewport, samples};
 use super::{Gpu, GpuError};
 use crate::mapping::MappingId;
 
@@ -124,6 +124,7 @@ impl Renderer {
         let plan = Plan::new(
             &self.drawn,
             &frame,
+            samples(&self.kit, &frame),
             self.environment.as_ref().map(|e| e.number),
         );
         self.drop_unseen(&frame);
@@ -154,7 +155,7 @@ impl Renderer {
     /// The texture of [`viewport`](Self::viewport).
     #[must_use]
     pub fn viewport_texture(&self) -> Option<&wgpu::Texture> {
-        self.viewport.as_ref().map(|v| &v.texture)
+        self.viewport.as_ref().map(Viewport::texture)
     }
 
     /// A number that changes whenever [`viewport`](Self::viewport) is another view than before, never used for another
@@ -374,10 +375,11 @@ impl Renderer {
     ) {
         let number = self.next_number();
         let kit = &self.kit;
+        let samples = samples(kit, frame);
         let viewport = self
             .viewport
-            .get_or_insert_with(|| Viewport::new(kit, seen, number));
-        viewport.prepare(kit, seen, number);
+            .get_or_insert_with(|| Viewport::new(kit, seen, samples, number));
+        viewport.prepare(kit, seen, samples, number);
         viewport.draw(kit, encoder, seen, frame.look(), &self.maps);
     }
 

@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn display_values_are_srgb() {
         let grey = ToneCurve::Linear.display([0.214_041_14, 0.0, 4.0], 0.0);
-        assert!((grey[0] - 0.5).abs() < 1e-5 && grey[1] == 0.0 && grey[2] == 1.0);
+        assert!((grey[0] - 0.5).abs() < 1e-5 && grey[1] == 0.0 && grey[2] > 0.999_99);
         let doubled = ToneCurve::Linear.display([0.107_020_57; 3], 1.0);
         assert!((doubled[0] - 0.5).abs() < 1e-5, "one stop doubles light");
     }

@@ -2,15 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use super::frame::{Look, ViewportFrame};
+use super::frame::{Frame, Look, ViewportFrame};
 use super::kit::{Kit, VIEW_FORMAT, VIEWPORT, Variant, show_source};
 use super::map::Map;
 use super::uniforms::{View, vec4};
 use crate::mapping::MappingId;
 use crate::scene::Object;
 
-/// Samples of a pixel for the object's silhouette; light is looked up once a pixel.
-pub const SAMPLES: u32 = 4;
+/// Samples of a pixel, for a smooth silhouette; light is looked up once a pixel.
+const SAMPLES: u32 = 4;
 const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Bytes of a vertex: position and normal.
 const VERTEX_BYTES: u64 = 24;
@@ -18,19 +18,26 @@ const VERTEX_BYTES: u64 = 24;
 /// Everything of the viewport on the device.
 #[derive(Debug)]
 pub(super) struct Viewport {
-    pub texture: wgpu::Texture,
     pub view: wgpu::TextureView,
     /// Changes with every new texture.
     pub id: u64,
-    samples: wgpu::Texture,
-    depth: wgpu::Texture,
+    targets: Targets,
     block: wgpu::Buffer,
     mesh: GpuMesh,
     pipelines: BTreeMap<Key, wgpu::RenderPipeline>,
 }
 
-/// What a pipeline draws, of which mapping, and how.
-type Key = (Part, MappingId, Variant);
+/// What the viewport is drawn on.
+#[derive(Debug)]
+struct Targets {
+    texture: wgpu::Texture,
+    /// Several samples a pixel, before they are averaged; none where one is enough.
+    samples: Option<wgpu::Texture>,
+    depth: wgpu::Texture,
+}
+
+/// What a pipeline draws, of which mapping, how, and with how many samples.
+type Key = (Part, MappingId, Variant, u32);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Part {
@@ -47,13 +54,13 @@ struct GpuMesh {
 }
 
 impl Viewport {
-    pub fn new(kit: &Kit, frame: &ViewportFrame, id: u64) -> Self {
-        let texture = kit.view_texture("viewport", frame.size_px);
+    pub fn new(kit: &Kit, frame: &ViewportFrame, samples: u32, id: u64) -> Self {
+        let targets = Targets::new(kit, frame.size_px, samples);
         Self {
-            view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
-            samples: attachment(kit, frame.size_px, VIEW_FORMAT),
-            depth: attachment(kit, frame.size_px, DEPTH_FORMAT),
-            texture,
+            view: targets
+                .texture
+                .create_view(&wgpu::TextureViewDescriptor::default()),
+            targets,
             id,
             block: kit.block_buffer("view", size_of::<View>()),
             mesh: GpuMesh::new(kit, frame.object),
@@ -62,14 +69,13 @@ impl Viewport {
     }
 
     /// Makes what the frame needs and the viewport lacks; `id` becomes the new texture's, if there is one.
-    pub fn prepare(&mut self, kit: &Kit, frame: &ViewportFrame, id: u64) {
-        if frame.size_px != [self.texture.width(), self.texture.height()] {
-            self.texture = kit.view_texture("viewport", frame.size_px);
+    pub fn prepare(&mut self, kit: &Kit, frame: &ViewportFrame, samples: u32, id: u64) {
+        if !self.targets.fit(frame.size_px, samples) {
+            self.targets = Targets::new(kit, frame.size_px, samples);
             self.view = self
+                .targets
                 .texture
                 .create_view(&wgpu::TextureViewDescriptor::default());
-            self.samples = attachment(kit, frame.size_px, VIEW_FORMAT);
-            self.depth = attachment(kit, frame.size_px, DEPTH_FORMAT);
             self.id = id;
         }
         if self.mesh.object != frame.object {
@@ -80,7 +86,7 @@ impl Viewport {
     /// Drops the pipelines of mappings that the frame does not look up.
     pub fn keep_only(&mut self, frame: &ViewportFrame) {
         self.pipelines
-            .retain(|(_, id, _), _| frame.mappings().any(|used| used == *id));
+            .retain(|(_, id, _, _), _| frame.mappings().any(|used| used == *id));
     }
 
     /// Draws object and sky, left and right of the divider.
@@ -96,7 +102,7 @@ impl Viewport {
         kit.gpu
             .queue
             .write_buffer(&self.block, 0, bytemuck::bytes_of(&block));
-        let keys = keys(frame, maps);
+        let keys = keys(frame, maps, self.targets.sample_count());
         self.pipelines
             .retain(|key, _| keys.iter().any(|pair| pair.contains(key)));
         for key in keys.iter().flatten() {
@@ -105,20 +111,27 @@ impl Viewport {
                 .or_insert_with(|| pipeline(kit, *key));
         }
         let samples = self
+            .targets
             .samples
-            .create_view(&wgpu::TextureViewDescriptor::default());
+            .as_ref()
+            .map(|s| s.create_view(&wgpu::TextureViewDescriptor::default()));
+        let (target, resolve_target, store) = match &samples {
+            Some(samples) => (samples, Some(&self.view), wgpu::StoreOp::Discard),
+            None => (&self.view, None, wgpu::StoreOp::Store),
+        };
         let depth = self
+            .targets
             .depth
             .create_view(&wgpu::TextureViewDescriptor::default());
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("viewport"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &samples,
+                view: target,
                 depth_slice: None,
-                resolve_target: Some(&self.view),
+                resolve_target,
                 ops: wgpu::Operations {
                     load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
-                    store: wgpu::StoreOp::Discard,
+                    store,
                 },
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
@@ -155,11 +168,23 @@ impl Viewport {
             pass.set_pipeline(sky);
             pass.draw(0..3, 0..1);
         }
+        // On GL the samples are averaged within the last scissor only.
+        pass.set_scissor_rect(0, 0, width, height);
+    }
+
+    /// The picture.
+    pub fn texture(&self) -> &wgpu::Texture {
+        &self.targets.texture
     }
 
     /// The textures, for the count.
-    pub fn textures(&self) -> [&wgpu::Texture; 3] {
-        [&self.texture, &self.samples, &self.depth]
+    pub fn textures(&self) -> impl Iterator<Item = &wgpu::Texture> {
+        let Targets {
+            texture,
+            samples,
+            depth,
+        } = &self.targets;
+        samples.iter().chain([texture, depth])
     }
 
     /// Number of pipelines.
@@ -185,22 +210,49 @@ fn view_block(frame: &ViewportFrame, look: Look) -> View {
     }
 }
 
-/// A texture that lives within one pass.
-fn attachment(kit: &Kit, [width, height]: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
-    kit.gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("viewport samples"),
-        size: wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: SAMPLES,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
-        view_formats: &[],
-    })
+/// Samples of a pixel in this frame. On a processor they double the time of a frame (measured: 110 against 55 ms), so there
+/// they are left to complete frames.
+pub(super) fn samples(kit: &Kit, frame: &Frame) -> u32 {
+    let on_processor = kit.gpu.adapter_info.device_type == wgpu::DeviceType::Cpu;
+    if on_processor && !frame.complete {
+        1
+    } else {
+        SAMPLES
+    }
+}
+
+impl Targets {
+    fn new(kit: &Kit, size_px: [u32; 2], samples: u32) -> Self {
+        let attachment = |format| {
+            kit.gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("viewport"),
+                size: wgpu::Extent3d {
+                    width: size_px[0],
+                    height: size_px[1],
+                    depth_or_array_layers: 1,
+                },
+                mip_level_count: 1,
+                sample_count: samples,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+                view_formats: &[],
+            })
+        };
+        Self {
+            texture: kit.view_texture("viewport", size_px),
+            samples: (samples > 1).then(|| attachment(VIEW_FORMAT)),
+            depth: attachment(DEPTH_FORMAT),
+        }
+    }
+
+    fn sample_count(&self) -> u32 {
+        self.depth.sample_count()
+    }
+
+    fn fit(&self, size_px: [u32; 2], samples: u32) -> bool {
+        [self.texture.width(), self.texture.height()] == size_px && self.sample_count() == samples
+    }
 }
 
 impl GpuMesh {
@@ -240,7 +292,7 @@ impl GpuMesh {
 }
 
 /// The pipelines of each side of the divider.
-fn keys(frame: &ViewportFrame, maps: &BTreeMap<MappingId, Map>) -> Vec<[Key; 2]> {
+fn keys(frame: &ViewportFrame, maps: &BTreeMap<MappingId, Map>, samples: u32) -> Vec<[Key; 2]> {
     let [width, height] = frame.size_px.map(|n| n as f32);
     let rays = frame.camera.ray_frame(width / height);
     // A pixel of the sky is widest in the middle of the screen.
@@ -260,14 +312,15 @@ fn keys(frame: &ViewportFrame, maps: &BTreeMap<MappingId, Map>) -> Vec<[Key; 2]>
                     level: true,
                     ..shown
                 },
+                samples,
             ),
-            (Part::Sky, id, Variant { level, ..shown }),
+            (Part::Sky, id, Variant { level, ..shown }, samples),
         ]
     };
     frame.mappings().map(pair).collect()
 }
 
-fn pipeline(kit: &Kit, (part, id, variant): Key) -> wgpu::RenderPipeline {
+fn pipeline(kit: &Kit, (part, id, variant, samples): Key) -> wgpu::RenderPipeline {
     let module = kit.module("viewport", &show_source(id, VIEWPORT, variant));
     let layout = kit.pipeline_layout(&kit.lookup);
     let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
@@ -315,7 +368,7 @@ fn pipeline(kit: &Kit, (part, id, variant): Key) -> wgpu::RenderPipeline {
             bias: wgpu::DepthBiasState::default(),
         }),
         multisample: wgpu::MultisampleState {
-            count: SAMPLES,
+            count: samples,
             ..Default::default()
         },
         fragment: Some(wgpu::FragmentState {
