@@ -52,7 +52,9 @@ fn draw(options: &RenderOptions) -> Result<(), String> {
     let environment = options.environment.as_deref().map(Environment::from_id);
     let changes = [
         options.map.map(Action::SetMapping),
-        options.compare.map(|compare| Action::SetCompare(Some(compare))),
+        options
+            .compare
+            .map(|compare| Action::SetCompare(Some(compare))),
         options.object.map(Action::SetObject),
         environment.map(Action::SetEnvironment),
     ];
@@ -67,7 +69,10 @@ fn draw(options: &RenderOptions) -> Result<(), String> {
         },
         size: options.size,
         overlays: options.overlays,
-        to: Destination::File { path: options.out.clone(), force: options.force },
+        to: Destination::File {
+            path: options.out.clone(),
+            force: options.force,
+        },
     };
     picture::render(&state, &request)
 }

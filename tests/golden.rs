@@ -1,5 +1,11 @@
 //! Published and high-precision values: the tables under tests/golden hold exact f32 inputs and 25-digit results.
 
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "helpers of tests say what they expect by unwrapping, and what they observed by printing"
+)]
+
 use sixfold::mapping::{ChartPoint, MappingId};
 use sixfold::math::{Real, Vec3};
 
@@ -46,44 +52,54 @@ fn worst<R: Real>(rows: &[Row], forward: impl Fn(Vec3<R>) -> Option<ChartPoint<R
         .fold(0.0, f64::max)
 }
 
-/// Holds an observed error against its budget, and the budget against the observed error.
-fn hold(what: &str, observed: f64, budget: f64) {
-    println!("{what}: observed {observed:.3e}, budget {budget:.1e}");
-    assert!(
-        observed <= budget,
-        "{what}: observed {observed:.3e} > budget {budget:.1e}"
-    );
+/// What the specification allows, and what is allowed here: about twice what was observed over all tables
+/// (2.2e-16 and 1.6e-7), so that a loss of accuracy is noticed long before it breaks the promise.
+const PROMISED: [f64; 2] = [5e-15, 4e-7];
+const BUDGET: [f64; 2] = [4.5e-16, 3e-7];
+
+/// Holds the largest error of each precision against its budget, and the budget against what was observed.
+fn hold(observed: [f64; 2]) {
+    for ((observed, budget), promised) in observed.into_iter().zip(BUDGET).zip(PROMISED) {
+        assert!(budget <= promised);
+        assert!(
+            observed <= budget,
+            "observed {observed:.2e}, budget {budget:.1e}"
+        );
+        assert!(
+            budget <= 3.0 * observed,
+            "the budget {budget:.1e} is far above {observed:.2e}"
+        );
+    }
 }
 
 #[test]
-fn every_mapping_in_both_precisions() {
+fn every_mapping_and_the_papers_own_numbers_in_both_precisions() {
+    let mut largest = [0.0_f64; 2];
+    let mut enter = |what: &str, observed: [f64; 2]| {
+        println!(
+            "{what}: f64 off by {:.2e}, f32 by {:.2e}",
+            observed[0], observed[1]
+        );
+        largest = [largest[0].max(observed[0]), largest[1].max(observed[1])];
+    };
     for &id in MappingId::ALL {
         let rows = table(id.info().id);
-        hold(
-            &format!("{id} f64"),
-            worst(&rows, |d: Vec3<f64>| id.forward(d)),
-            5e-15,
-        );
-        hold(
-            &format!("{id} f32"),
-            worst(&rows, |d: Vec3<f32>| id.forward(d)),
-            4e-7,
+        let double = worst(&rows, |d: Vec3<f64>| id.forward(d));
+        enter(
+            id.info().id,
+            [double, worst(&rows, |d: Vec3<f32>| id.forward(d))],
         );
         // Negative control: the same rows with the handedness turned round must fail.
         let mirrored = worst(&rows, |d: Vec3<f64>| id.forward(Vec3::new(-d.x, d.y, d.z)));
         assert!(mirrored > 0.1, "{id}: the comparison cannot fail");
     }
-}
-
-#[test]
-fn the_papers_own_numbers() {
     let rows = table("ccm-paper");
-    let paper = MappingId::Ccm.info().convention("paper").unwrap();
-    hold("ccm paper f64", worst(&rows, paper.forward.1), 5e-15);
-    hold("ccm paper f32", worst(&rows, paper.forward.0), 4e-7);
-    let printed = MappingId::Ccm.info().convention("printed-eq6").unwrap();
+    let convention = |id| MappingId::Ccm.info().convention(id).unwrap().forward;
+    let (single, double) = convention("paper");
+    enter("ccm-paper", [worst(&rows, double), worst(&rows, single)]);
     assert!(
-        worst(&rows, printed.forward.1) > 0.2,
+        worst(&rows, convention("printed-eq6").1) > 0.2,
         "the printed Eq. 6 must be off"
     );
+    hold(largest);
 }

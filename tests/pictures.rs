@@ -1,7 +1,10 @@
 //! Pictures without a window: every panel the right way round, the same bytes from window and command line, scenes inside.
 
 #![cfg(feature = "explorer")]
-#![expect(clippy::unwrap_used, reason = "helpers of tests say what they expect by unwrapping")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "helpers of tests say what they expect by unwrapping"
+)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -28,16 +31,33 @@ fn state() -> AppState {
 
 fn surroundings(environment: Environment) -> Surroundings {
     let loaded = environment.image(&Progress::new()).unwrap();
-    Surroundings { environment, loaded: Arc::new(loaded) }
+    Surroundings {
+        environment,
+        loaded: Arc::new(loaded),
+    }
 }
 
 fn request(what: What, size: [u32; 2], path: &Path) -> PictureRequest {
-    let to = Destination::File { path: path.to_owned(), force: false };
-    PictureRequest { what, size, overlays: false, to }
+    let to = Destination::File {
+        path: path.to_owned(),
+        force: false,
+    };
+    PictureRequest {
+        what,
+        size,
+        overlays: false,
+        to,
+    }
 }
 
 fn draw(gpu: &Gpu, state: &AppState, request: &PictureRequest) -> Result<Picture, String> {
-    picture::draw(gpu, state, surroundings(state.environment.clone()), request, &Progress::new())
+    picture::draw(
+        gpu,
+        state,
+        surroundings(state.environment.clone()),
+        request,
+        &Progress::new(),
+    )
 }
 
 /// Largest difference in 8-bit steps between a panel's pixels and the colour of the direction that belongs there.
@@ -50,7 +70,9 @@ fn worst_step(picture: &Picture, mapping: MappingId, turned: fn(Vec3<f64>) -> Ve
     let mut worst = 0;
     for dir in even_directions(500) {
         let dir = Vec3::<f64>::from_f64(dir);
-        let Some(point) = mapping.forward(dir).filter(|_| info.coverage.contains(dir.to_f64()))
+        let Some(point) = mapping
+            .forward(dir)
+            .filter(|_| info.coverage.contains(dir.to_f64()))
         else {
             continue;
         };
@@ -67,7 +89,10 @@ fn worst_step(picture: &Picture, mapping: MappingId, turned: fn(Vec3<f64>) -> Ve
         let place = window.screen_from_picture(info.layout.picture_from_chart(point).unwrap());
         let at = 4 * (place.y as usize * width as usize + place.x as usize);
         let wanted = turned(dir).to_f64().map(|c| (0.5 + 0.5 * c) as f32);
-        for (got, wanted) in picture.rgba[at..at + 3].iter().zip(srgb8_from_linear(wanted)) {
+        for (got, wanted) in picture.rgba[at..at + 3]
+            .iter()
+            .zip(srgb8_from_linear(wanted))
+        {
             worst = worst.max(got.abs_diff(wanted));
         }
     }
@@ -96,7 +121,10 @@ fn every_panel_shows_every_direction_in_its_place() {
 #[test]
 fn the_same_scene_gives_the_same_bytes_from_the_window_and_from_the_command_line() {
     let folder = tempfile::tempdir().unwrap();
-    let state = AppState { compare: Some(MappingId::Sphere), ..state() };
+    let state = AppState {
+        compare: Some(MappingId::Sphere),
+        ..state()
+    };
     let scene = folder.path().join("scene.json");
     std::fs::write(&scene, state.to_json()).unwrap();
     let gpu = Gpu::headless().unwrap();
@@ -117,12 +145,24 @@ fn the_same_scene_gives_the_same_bytes_from_the_window_and_from_the_command_line
             .status()
             .unwrap();
         assert!(status.success());
-        let (a, b) = (image::open(&path).unwrap().to_rgba8(), image::open(&other).unwrap().to_rgba8());
+        let (a, b) = (
+            image::open(&path).unwrap().to_rgba8(),
+            image::open(&other).unwrap().to_rgba8(),
+        );
         assert_eq!(a.as_raw(), &made.rgba);
         assert!(a == b, "{name}: window and command line differ");
-        assert_eq!(files::open_scene(&other).unwrap(), state, "{name}: the scene in the picture");
+        assert_eq!(
+            files::open_scene(&other).unwrap(),
+            state,
+            "{name}: the scene in the picture"
+        );
         // Another scene is another picture.
-        let turned = AppState { mapping: MappingId::Cube, compare: None, exposure_ev: 1.0, ..state.clone() };
+        let turned = AppState {
+            mapping: MappingId::Cube,
+            compare: None,
+            exposure_ev: 1.0,
+            ..state.clone()
+        };
         assert_ne!(draw(&gpu, &turned, &wanted).unwrap(), made);
         std::fs::remove_file(path).unwrap();
         std::fs::remove_file(other).unwrap();
@@ -164,17 +204,33 @@ fn a_cancelled_picture_and_a_taken_name_leave_the_folder_as_it_was() {
     let path: PathBuf = folder.path().join("taken.png");
     std::fs::write(&path, b"precious").unwrap();
     let make = |progress: &Progress, wanted: &PictureRequest| {
-        picture::make(&gpu, &state(), surroundings(Environment::DirectionColour), wanted, progress)
+        picture::make(
+            &gpu,
+            &state(),
+            surroundings(Environment::DirectionColour),
+            wanted,
+            progress,
+        )
     };
     let wanted = request(What::Viewport, [64, 64], &path);
-    assert!(make(&Progress::new(), &wanted).unwrap_err().contains("taken.png"));
+    assert!(
+        make(&Progress::new(), &wanted)
+            .unwrap_err()
+            .contains("taken.png")
+    );
     let cancelled = Progress::new();
     cancelled.cancel();
     let other = request(What::Viewport, [64, 64], &folder.path().join("new.png"));
     assert!(make(&cancelled, &other).unwrap_err().contains("cancelled"));
     assert_eq!(std::fs::read(&path).unwrap(), b"precious");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-    let forced = PictureRequest { to: Destination::File { path: path.clone(), force: true }, ..wanted };
+    let forced = PictureRequest {
+        to: Destination::File {
+            path: path.clone(),
+            force: true,
+        },
+        ..wanted
+    };
     make(&Progress::new(), &forced).unwrap();
     assert!(image::open(&path).is_ok());
 }

@@ -1,7 +1,10 @@
 //! The window by role and label, on a software adapter: panels, probe, sign table, messages, and what is left undrawn.
 
 #![cfg(feature = "explorer")]
-#![expect(clippy::unwrap_used, reason = "helpers of tests say what they expect by unwrapping")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "helpers of tests say what they expect by unwrapping"
+)]
 
 use std::time::{Duration, Instant};
 
@@ -38,7 +41,11 @@ fn open_sized(state: AppState, width: f32, height: f32) -> Ui {
 
 /// Small maps: what is tested here does not depend on their size.
 fn small() -> AppState {
-    AppState { texel_budget: 6 * 64 * 64, environment: Environment::DirectionColour, ..AppState::default() }
+    AppState {
+        texel_budget: 6 * 64 * 64,
+        environment: Environment::DirectionColour,
+        ..AppState::default()
+    }
 }
 
 /// Steps until no job runs and no map is missing.
@@ -46,7 +53,10 @@ fn settle(ui: &mut Ui) {
     let start = Instant::now();
     ui.step();
     while ui.state().explorer().is_busy() {
-        assert!(start.elapsed() < Duration::from_secs(120), "the window does not come to rest");
+        assert!(
+            start.elapsed() < Duration::from_secs(120),
+            "the window does not come to rest"
+        );
         std::thread::sleep(Duration::from_millis(5));
         ui.step();
     }
@@ -65,7 +75,8 @@ fn probe(ui: &Ui) -> Vec3<f64> {
 
 /// The rectangle on the screen of a panel's picture.
 fn panel_rect(ui: &Ui, mapping: MappingId) -> egui::Rect {
-    ui.get_by_label(&format!("Panel: {}", mapping.info().name)).rect()
+    ui.get_by_label(&format!("Panel: {}", mapping.info().name))
+        .rect()
 }
 
 /// Where a direction lies on the screen in a mapping's panel.
@@ -73,9 +84,12 @@ fn place(ui: &Ui, mapping: MappingId, dir: Vec3<f64>) -> egui::Pos2 {
     let info = mapping.info();
     let view = ui.state().explorer().state().panel(mapping);
     let aspect = info.layout.picture_aspect(info.aspect) as f32;
-    let window =
-        sixfold::app::panel_view::PanelWindow::new(panel_rect(ui, mapping), &view, aspect);
-    window.screen_from_picture(info.layout.picture_from_chart(mapping.forward(dir).unwrap()).unwrap())
+    let window = sixfold::app::panel_view::PanelWindow::new(panel_rect(ui, mapping), &view, aspect);
+    window.screen_from_picture(
+        info.layout
+            .picture_from_chart(mapping.forward(dir).unwrap())
+            .unwrap(),
+    )
 }
 
 #[test]
@@ -85,11 +99,18 @@ fn the_first_window_shows_the_seeds_six_panels_and_the_probe() {
     for &mapping in &MappingId::ALL[..6] {
         ui.get_by_label(&format!("Panel: {}", mapping.info().name));
     }
-    assert!(ui.query_by_label("Panel: Octahedral").is_none(), "the seventh is not open");
+    assert!(
+        ui.query_by_label("Panel: Octahedral").is_none(),
+        "the seventh is not open"
+    );
     ui.get_by_label("The row of +y matches.");
     let picture = ui.render().unwrap();
     let colors: std::collections::HashSet<_> = picture.pixels().map(|p| p.0).collect();
-    assert!(colors.len() > 1000, "the window shows {} colours", colors.len());
+    assert!(
+        colors.len() > 1000,
+        "the window shows {} colours",
+        colors.len()
+    );
 }
 
 #[test]
@@ -108,7 +129,10 @@ fn the_probe_dragged_in_one_panel_is_read_in_all_others() {
         settle(&mut ui);
         let found = probe(&ui);
         // A panel of about 200 points shows four faces across: a point is 0.03 rad.
-        assert!(sixfold::math::angle_rad(found.to_f64(), wanted.to_f64()) < 0.03, "{found:?}");
+        assert!(
+            sixfold::math::angle_rad(found.to_f64(), wanted.to_f64()) < 0.03,
+            "{found:?}"
+        );
         let picture = ui.render().unwrap();
         for &mapping in &MappingId::ALL[..6] {
             let at = place(&ui, mapping, found);
@@ -126,8 +150,15 @@ fn the_probe_dragged_in_one_panel_is_read_in_all_others() {
                     .filter(|turn| [5.5, 6.0, 6.5].iter().any(|radius| is_mark(*radius, *turn)))
                     .count()
             };
-            assert!(ring(&picture) >= 24, "{mapping}: no mark at {at:?}: {}", ring(&picture));
-            assert!(ring(&before) < ring(&picture), "{mapping}: the mark was there before");
+            assert!(
+                ring(&picture) >= 24,
+                "{mapping}: no mark at {at:?}: {}",
+                ring(&picture)
+            );
+            assert!(
+                ring(&before) < ring(&picture),
+                "{mapping}: the mark was there before"
+            );
         }
     }
 }
@@ -149,7 +180,13 @@ fn the_sign_table_lights_the_row_of_every_face_and_explains_ties() {
         assert!(ui.query_by_label_contains("A tie").is_none());
     }
     // Where +x, +y and +z meet the paper's strict comparison prefers +x, hardware +z.
-    run(&mut ui, Action::SetProbe { dir: [1.0, 1.0, 1.0], eye_ray: None });
+    run(
+        &mut ui,
+        Action::SetProbe {
+            dir: [1.0, 1.0, 1.0],
+            eye_ray: None,
+        },
+    );
     ui.get_by_label("The row of +x matches.");
     ui.get_by_label_contains("A tie: +x and +z and +y meet here");
 }
@@ -166,7 +203,9 @@ fn every_mapping_has_a_panel_and_its_steps_and_none_fails_when_tiny() {
         assert!(steps.len() >= 3);
         for step in steps {
             assert!(
-                ui.query_all_by_label_contains(step.formula).next().is_some(),
+                ui.query_all_by_label_contains(step.formula)
+                    .next()
+                    .is_some(),
                 "{mapping}: {}",
                 step.formula
             );
@@ -185,7 +224,10 @@ fn a_bad_file_is_reported_and_leaves_the_scene_as_it_was() {
     let before = ui.state().explorer().state().clone();
     let folder = tempfile::tempdir().unwrap();
     for (name, bytes) in [
-        ("damaged.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n".as_slice()),
+        (
+            "damaged.hdr",
+            b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n".as_slice(),
+        ),
         ("damaged.png", b"\x89PNG\r\n\x1a\nnot a picture".as_slice()),
         ("damaged.json", b"{".as_slice()),
         ("missing.exr", b"".as_slice()),
@@ -197,7 +239,9 @@ fn a_bad_file_is_reported_and_leaves_the_scene_as_it_was() {
         run(&mut ui, Command::Open(path));
         settle(&mut ui);
         let messages = ui.state().explorer().messages();
-        let last = messages.last().unwrap_or_else(|| panic!("{name} was not reported"));
+        let last = messages
+            .last()
+            .unwrap_or_else(|| panic!("{name} was not reported"));
         assert!(last.is_error && last.text.contains(name), "{}", last.text);
         assert!(!last.text.contains('\n'));
         ui.get_by_label_contains(name);
@@ -211,19 +255,56 @@ fn a_still_window_draws_nothing_and_a_probe_move_redraws_no_map() {
     let totals = |ui: &Ui| ui.state().explorer().report().totals;
     let still = totals(&ui);
     ui.run_steps(10);
-    assert_eq!(totals(&ui).submissions, still.submissions, "a still window drew");
-    assert!(!ui.ctx.has_requested_repaint(), "a still window asks for frames");
-    run(&mut ui, Action::SetProbe { dir: [0.0, 0.0, 1.0], eye_ray: None });
+    assert_eq!(
+        totals(&ui).submissions,
+        still.submissions,
+        "a still window drew"
+    );
+    assert!(
+        !ui.ctx.has_requested_repaint(),
+        "a still window asks for frames"
+    );
+    run(
+        &mut ui,
+        Action::SetProbe {
+            dir: [0.0, 0.0, 1.0],
+            eye_ray: None,
+        },
+    );
     let moved = totals(&ui);
-    assert_eq!((moved.map_bakes, moved.panel_draws), (still.map_bakes, still.panel_draws));
-    assert!(moved.viewport_draws > still.viewport_draws, "the probe's mark did not move");
-    run(&mut ui, Action::Orbit { dx_rad: 0.3, dy_rad: 0.0 });
-    assert_eq!(totals(&ui).map_bakes, still.map_bakes, "an orbit drew a map");
-    assert_eq!(totals(&ui).panel_draws, still.panel_draws, "an orbit drew a panel");
+    assert_eq!(
+        (moved.map_bakes, moved.panel_draws),
+        (still.map_bakes, still.panel_draws)
+    );
+    assert!(
+        moved.viewport_draws > still.viewport_draws,
+        "the probe's mark did not move"
+    );
+    run(
+        &mut ui,
+        Action::Orbit {
+            dx_rad: 0.3,
+            dy_rad: 0.0,
+        },
+    );
+    assert_eq!(
+        totals(&ui).map_bakes,
+        still.map_bakes,
+        "an orbit drew a map"
+    );
+    assert_eq!(
+        totals(&ui).panel_draws,
+        still.panel_draws,
+        "an orbit drew a panel"
+    );
     // A hidden panel takes its texture along, and shown again it is drawn again.
     let textures = ui.state().explorer().report().textures;
     run(&mut ui, Action::SetPanelOpen(MappingId::Latlong, false));
-    assert_eq!(ui.state().explorer().report().textures, textures - 2, "the panel and its map");
+    assert_eq!(
+        ui.state().explorer().report().textures,
+        textures - 2,
+        "the panel and its map"
+    );
     run(&mut ui, Action::SetPanelOpen(MappingId::Latlong, true));
     assert_eq!(totals(&ui).map_bakes, still.map_bakes + 1);
 }
@@ -257,7 +338,10 @@ fn controls_are_found_by_their_labels_and_do_what_they_say() {
     ui.get_by_label("Eq. 6");
     ui.get_by_label("Maximise Cube map").click();
     settle(&mut ui);
-    assert!(ui.query_by_label("The viewport").is_none(), "a maximised panel hides the rest");
+    assert!(
+        ui.query_by_label("The viewport").is_none(),
+        "a maximised panel hides the rest"
+    );
     ui.get_by_label("Show all panels").click();
     settle(&mut ui);
     ui.get_by_label("The viewport");
@@ -270,12 +354,21 @@ fn a_lost_device_ends_in_a_message() {
     let start = Instant::now();
     while !ui.state().explorer().is_lost() && start.elapsed() < Duration::from_secs(10) {
         // The device tells of its end when it is asked.
-        drop(ui.state().explorer().gpu().device.poll(wgpu::PollType::Poll));
+        drop(
+            ui.state()
+                .explorer()
+                .gpu()
+                .device
+                .poll(wgpu::PollType::Poll),
+        );
     }
     assert!(ui.state().explorer().is_lost());
     ui.run_steps(3);
     let rescued = ui.state().explorer().rescue();
     let path = rescued.rsplit(' ').next().unwrap();
     let text = std::fs::read_to_string(path).unwrap();
-    assert_eq!(AppState::from_json(&text).unwrap(), *ui.state().explorer().state());
+    assert_eq!(
+        AppState::from_json(&text).unwrap(),
+        *ui.state().explorer().state()
+    );
 }

@@ -2,15 +2,18 @@
 //! and it closes with status 0.
 
 #![cfg(all(feature = "explorer", target_os = "linux"))]
-#![expect(clippy::unwrap_used, reason = "helpers of tests say what they expect by unwrapping")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "helpers of tests say what they expect by unwrapping"
+)]
 
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{
-    AtomEnum, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ClientMessageEvent, ConnectionExt, EventMask,
-    ImageFormat, MOTION_NOTIFY_EVENT, Window,
+    AtomEnum, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ClientMessageEvent, ConnectionExt,
+    EventMask, ImageFormat, MOTION_NOTIFY_EVENT, Window,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -90,15 +93,24 @@ impl<'a> Explorer<'a> {
             let children = x.query_tree(root).ok()?.reply().ok()?.children;
             children.into_iter().find(|window| {
                 let name = x.get_property(false, *window, AtomEnum::WM_NAME, AtomEnum::ANY, 0, 64);
-                name.ok().and_then(|n| n.reply().ok()).is_some_and(|n| n.value == b"Sixfold")
+                name.ok()
+                    .and_then(|n| n.reply().ok())
+                    .is_some_and(|n| n.value == b"Sixfold")
             })
         });
-        Self { x, root, window, process }
+        Self {
+            x,
+            root,
+            window,
+            process,
+        }
     }
 
     /// The picture on the screen, as bytes.
     fn picture(&self) -> Vec<u8> {
-        let image = self.x.get_image(ImageFormat::Z_PIXMAP, self.root, 0, 0, 1280, 800, !0);
+        let image = self
+            .x
+            .get_image(ImageFormat::Z_PIXMAP, self.root, 0, 0, 1280, 800, !0);
         image.unwrap().reply().unwrap().data
     }
 
@@ -123,7 +135,9 @@ impl<'a> Explorer<'a> {
     }
 
     fn event(&self, kind: u8, detail: u8, x: i16, y: i16) {
-        self.x.xtest_fake_input(kind, detail, 0, self.root, x, y, 0).unwrap();
+        self.x
+            .xtest_fake_input(kind, detail, 0, self.root, x, y, 0)
+            .unwrap();
         self.x.flush().unwrap();
         std::thread::sleep(Duration::from_millis(120));
     }
@@ -131,17 +145,31 @@ impl<'a> Explorer<'a> {
     fn drag(&self, from: (i16, i16), to: (i16, i16)) {
         self.event(MOTION_NOTIFY_EVENT, 0, from.0, from.1);
         self.event(BUTTON_PRESS_EVENT, 1, 0, 0);
-        self.event(MOTION_NOTIFY_EVENT, 0, (from.0 + to.0) / 2, (from.1 + to.1) / 2);
+        self.event(
+            MOTION_NOTIFY_EVENT,
+            0,
+            (from.0 + to.0) / 2,
+            (from.1 + to.1) / 2,
+        );
         self.event(MOTION_NOTIFY_EVENT, 0, to.0, to.1);
         self.event(BUTTON_RELEASE_EVENT, 1, 0, 0);
     }
 
     /// Closes the window as a window manager would, and waits for the end of the process.
     fn close(mut self) -> ExitStatus {
-        let atom = |name: &[u8]| self.x.intern_atom(false, name).unwrap().reply().unwrap().atom;
+        let atom = |name: &[u8]| {
+            self.x
+                .intern_atom(false, name)
+                .unwrap()
+                .reply()
+                .unwrap()
+                .atom
+        };
         let (protocols, delete) = (atom(b"WM_PROTOCOLS"), atom(b"WM_DELETE_WINDOW"));
         let message = ClientMessageEvent::new(32, self.window, protocols, [delete, 0, 0, 0, 0]);
-        self.x.send_event(false, self.window, EventMask::NO_EVENT, message).unwrap();
+        self.x
+            .send_event(false, self.window, EventMask::NO_EVENT, message)
+            .unwrap();
         self.x.flush().unwrap();
         wait_for("the explorer to end", || self.process.0.try_wait().unwrap())
     }
@@ -156,8 +184,9 @@ fn a_window_opens_follows_the_probe_rests_and_closes() {
     while colors < 500 {
         let picture = explorer.settled();
         let pixels = (0..800).flat_map(|y| (0..1280).map(move |x| (x, y)));
-        let seen: std::collections::HashSet<_> =
-            pixels.map(|(x, y)| Explorer::pixel(&picture, x, y)).collect();
+        let seen: std::collections::HashSet<_> = pixels
+            .map(|(x, y)| Explorer::pixel(&picture, x, y))
+            .collect();
         colors = seen.len();
     }
     let before = explorer.settled();
@@ -167,7 +196,11 @@ fn a_window_opens_follows_the_probe_rests_and_closes() {
     // In the latlong panel, lower left of the middle of the window.
     explorer.drag((260, 520), (340, 545));
     let after = explorer.settled();
-    let changed = before.chunks(4).zip(after.chunks(4)).filter(|(a, b)| a != b).count();
+    let changed = before
+        .chunks(4)
+        .zip(after.chunks(4))
+        .filter(|(a, b)| a != b)
+        .count();
     // The mark has moved in six panels and the numbers in the inspector with it.
     assert!(changed > 2000, "the drag changed {changed} pixels only");
     let status = explorer.close();

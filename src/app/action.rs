@@ -85,7 +85,10 @@ impl Action {
 
     /// True for what undo leaves alone: the probe's moves and the arrangement would drown everything else.
     pub fn is_transient(&self) -> bool {
-        matches!(self, Self::SetProbe { .. } | Self::StepProbe { .. } | Self::SetArrangement(_))
+        matches!(
+            self,
+            Self::SetProbe { .. } | Self::StepProbe { .. } | Self::SetArrangement(_)
+        )
     }
 }
 
@@ -111,7 +114,11 @@ pub fn apply(state: &mut AppState, action: Action) {
         Action::ResetCamera => state.camera = AppState::default().camera,
         Action::SetExposure(ev) => {
             let (low, high) = super::state::EXPOSURE_RANGE;
-            state.exposure_ev = if ev.is_finite() { ev.clamp(low, high) } else { 0.0 };
+            state.exposure_ev = if ev.is_finite() {
+                ev.clamp(low, high)
+            } else {
+                0.0
+            };
         }
         Action::SetTone(tone) => state.tone = tone,
         Action::SetTexelBudget(budget) => {
@@ -125,8 +132,7 @@ pub fn apply(state: &mut AppState, action: Action) {
         }
         Action::StepProbe { columns, rows } => {
             let size = crate::gpu::map_size(state.mapping, state.texel_budget);
-            if let Some(dir) =
-                probe::stepped(state.mapping, size, state.probe_f64(), columns, rows)
+            if let Some(dir) = probe::stepped(state.mapping, size, state.probe_f64(), columns, rows)
             {
                 state.probe = unit(dir.to_f64().map(|c| c as f32));
                 state.eye_ray = None;
@@ -152,7 +158,10 @@ pub fn apply(state: &mut AppState, action: Action) {
 /// The probe at a chart point of a mapping, as an action; `None` off the chart.
 pub fn probe_at(mapping: MappingId, point: ChartPoint<f64>) -> Option<Action> {
     let Vec3 { x, y, z } = mapping.inverse(point)?;
-    Some(Action::SetProbe { dir: [x, y, z].map(|c| c as f32), eye_ray: None })
+    Some(Action::SetProbe {
+        dir: [x, y, z].map(|c| c as f32),
+        eye_ray: None,
+    })
 }
 
 /// The camera's default view for a state, used by reset buttons.
@@ -183,8 +192,14 @@ mod tests {
             Action::SetExposure(f32::INFINITY),
             Action::SetTexelBudget(0),
             Action::Zoom(f32::NAN),
-            Action::Orbit { dx_rad: f32::NAN, dy_rad: 9e9 },
-            Action::SetProbe { dir: [0.0; 3], eye_ray: None },
+            Action::Orbit {
+                dx_rad: f32::NAN,
+                dy_rad: 9e9,
+            },
+            Action::SetProbe {
+                dir: [0.0; 3],
+                eye_ray: None,
+            },
         ] {
             apply(&mut state, action);
         }
@@ -198,14 +213,38 @@ mod tests {
             apply(&mut state, Action::SetMapping(mapping));
             let size = crate::gpu::map_size(mapping, state.texel_budget);
             let before = mapping.forward(state.probe_f64()).unwrap();
-            apply(&mut state, Action::StepProbe { columns: 1, rows: 0 });
+            apply(
+                &mut state,
+                Action::StepProbe {
+                    columns: 1,
+                    rows: 0,
+                },
+            );
             let after = mapping.forward(state.probe_f64()).unwrap();
             let moved = (after.u - before.u) * f64::from(size[0]);
-            assert!((moved - 1.0).abs() < 0.01, "{mapping}: moved by {moved} texels");
-            apply(&mut state, Action::StepProbe { columns: 0, rows: 1 });
-            apply(&mut state, Action::StepProbe { columns: -1, rows: -1 });
+            assert!(
+                (moved - 1.0).abs() < 0.01,
+                "{mapping}: moved by {moved} texels"
+            );
+            apply(
+                &mut state,
+                Action::StepProbe {
+                    columns: 0,
+                    rows: 1,
+                },
+            );
+            apply(
+                &mut state,
+                Action::StepProbe {
+                    columns: -1,
+                    rows: -1,
+                },
+            );
             let back = mapping.forward(state.probe_f64()).unwrap();
-            assert!((back.u - before.u).abs() * f64::from(size[0]) < 0.01, "{mapping}");
+            assert!(
+                (back.u - before.u).abs() * f64::from(size[0]) < 0.01,
+                "{mapping}"
+            );
         }
     }
 }

@@ -65,7 +65,11 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
             }
         });
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.label(RichText::new(model.adapter).small().color(egui::Color32::from_gray(150)));
+            ui.label(
+                RichText::new(model.adapter)
+                    .small()
+                    .color(egui::Color32::from_gray(150)),
+            );
         });
     });
 }
@@ -73,9 +77,15 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
 /// What pointer and keys do.
 const HELP: &[(&str, &str)] = &[
     ("move", "over any view: the probe follows"),
-    ("click", "in any view: the probe stays there; Esc lets it follow again"),
+    (
+        "click",
+        "in any view: the probe stays there; Esc lets it follow again",
+    ),
     ("drag", "in the viewport: turn; in a panel: move the probe"),
-    ("right drag", "in the viewport: move the probe; in a panel: pan"),
+    (
+        "right drag",
+        "in the viewport: move the probe; in a panel: pan",
+    ),
     ("wheel", "zoom; a double click in a panel shows it whole"),
     ("arrows", "move the probe by texels (Shift: by ten)"),
     ("W A S D", "turn the camera"),
@@ -89,7 +99,11 @@ pub fn status_ui(ui: &mut Ui, model: &mut Model<'_>) {
     ui.horizontal(|ui| {
         for job in model.jobs {
             ui.label(RichText::new(&job.title).small());
-            ui.add(ProgressBar::new(job.fraction).desired_width(90.0).show_percentage());
+            ui.add(
+                ProgressBar::new(job.fraction)
+                    .desired_width(90.0)
+                    .show_percentage(),
+            );
             if ui.small_button("Cancel").clicked() {
                 model.commands.push(Command::Cancel(job.id));
             }
@@ -97,14 +111,22 @@ pub fn status_ui(ui: &mut Ui, model: &mut Model<'_>) {
         }
         ui.label(RichText::new(model.plan).small());
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.label(RichText::new(format!("frame {}", model.frames)).small().color(egui::Color32::from_gray(165)));
+            ui.label(
+                RichText::new(format!("frame {}", model.frames))
+                    .small()
+                    .color(egui::Color32::from_gray(165)),
+            );
             ui.separator();
             let hint = if model.state.probe_follows {
                 "the probe follows the pointer; click keeps it"
             } else {
                 "the probe is kept; Esc lets it follow"
             };
-            ui.label(RichText::new(hint).small().color(egui::Color32::from_gray(165)));
+            ui.label(
+                RichText::new(hint)
+                    .small()
+                    .color(egui::Color32::from_gray(165)),
+            );
         });
     });
 }

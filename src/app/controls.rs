@@ -13,18 +13,20 @@ use crate::scene::Object;
 
 /// Shows the controls, scrolled where they are too many.
 pub fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-        heading(ui, "Mapping");
-        mapping_ui(ui, model);
-        heading(ui, "Scene");
-        scene_ui(ui, model);
-        heading(ui, "Light");
-        light_ui(ui, model);
-        heading(ui, "Overlays");
-        overlays_ui(ui, model);
-        heading(ui, "Panels");
-        panels_ui(ui, model);
-    });
+    egui::ScrollArea::vertical()
+        .auto_shrink([false, false])
+        .show(ui, |ui| {
+            heading(ui, "Mapping");
+            mapping_ui(ui, model);
+            heading(ui, "Scene");
+            scene_ui(ui, model);
+            heading(ui, "Light");
+            light_ui(ui, model);
+            heading(ui, "Overlays");
+            overlays_ui(ui, model);
+            heading(ui, "Panels");
+            panels_ui(ui, model);
+        });
 }
 
 fn heading(ui: &mut Ui, title: &str) {
@@ -61,21 +63,37 @@ fn mapping_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let state = model.state;
     let all = MappingId::ALL.iter().copied();
     let name = |m: &MappingId| m.info().name.to_owned();
-    if let Some(mapping) = choose(ui, "looked up by object and sky", &state.mapping, all.clone(), name) {
+    if let Some(mapping) = choose(
+        ui,
+        "looked up by object and sky",
+        &state.mapping,
+        all.clone(),
+        name,
+    ) {
         model.push(Action::SetMapping(mapping));
     }
     let others = std::iter::once(None).chain(all.filter(|m| *m != state.mapping).map(Some));
     let name = |m: &Option<MappingId>| m.map_or("none", |m| m.info().name).to_owned();
-    if let Some(compare) = choose(ui, "compared, right of the divider", &state.compare, others, name) {
+    if let Some(compare) = choose(
+        ui,
+        "compared, right of the divider",
+        &state.compare,
+        others,
+        name,
+    ) {
         model.push(Action::SetCompare(compare));
     }
     let mut budget = state.texel_budget as f32 / 1e6;
     let (low, high) = TEXEL_BUDGET_RANGE;
     let range = low as f32 / 1e6..=high as f32 / 1e6;
     let label = ui.label("texels of every map, in millions");
-    let slider = Slider::new(&mut budget, range).logarithmic(true).max_decimals(4);
+    let slider = Slider::new(&mut budget, range)
+        .logarithmic(true)
+        .max_decimals(4);
     // Each new budget bakes every map anew: wait until the slider is let go.
-    let response = ui.add(slider.update_while_editing(false)).labelled_by(label.id);
+    let response = ui
+        .add(slider.update_while_editing(false))
+        .labelled_by(label.id);
     if response.changed() && !response.dragged() || response.drag_stopped() {
         let texels = (budget * 1e6) as u32;
         if texels != state.texel_budget {
@@ -103,11 +121,17 @@ fn scene_ui(ui: &mut Ui, model: &mut Model<'_>) {
     if let Some(text) = model.surroundings.and_then(|s| s.bad_texels().summary()) {
         ui.label(RichText::new(text).small().color(super::theme::TEXEL));
     }
-    let object = choose(ui, "mirror object", &state.object, Object::ALL, |o| o.name().to_owned());
+    let object = choose(ui, "mirror object", &state.object, Object::ALL, |o| {
+        o.name().to_owned()
+    });
     if let Some(object) = object {
         model.push(Action::SetObject(object));
     }
-    if ui.button("Reset the view").on_hover_text("Key: R").clicked() {
+    if ui
+        .button("Reset the view")
+        .on_hover_text("Key: R")
+        .clicked()
+    {
         model.push(Action::ResetCamera);
     }
 }
@@ -121,7 +145,9 @@ fn light_ui(ui: &mut Ui, model: &mut Model<'_>) {
     if slider.labelled_by(label.id).changed() {
         model.push(Action::SetExposure(ev));
     }
-    let tone = choose(ui, "tone curve", &state.tone, ToneCurve::ALL, |t| t.name().to_owned());
+    let tone = choose(ui, "tone curve", &state.tone, ToneCurve::ALL, |t| {
+        t.name().to_owned()
+    });
     if let Some(tone) = tone {
         model.push(Action::SetTone(tone));
     }

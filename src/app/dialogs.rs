@@ -70,7 +70,8 @@ fn path_ui(ui: &mut Ui, path: &mut String, label: &str) -> bool {
     ui.horizontal(|ui| {
         let name = ui.label(label);
         let width = ui.available_width() - 84.0;
-        ui.add(TextEdit::singleline(path).desired_width(width)).labelled_by(name.id);
+        ui.add(TextEdit::singleline(path).desired_width(width))
+            .labelled_by(name.id);
         browse = ui.button("Browse …").clicked();
     });
     browse
@@ -114,7 +115,9 @@ fn buttons(ui: &mut Ui, deed: &str, ready: bool, act: impl FnOnce()) -> bool {
 
 fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) -> bool {
     ui.heading("Save a picture");
-    ui.label("Drawn anew at the size you choose. The PNG holds the scene, so Sixfold can open it again.");
+    ui.label(
+        "Drawn anew at the size you choose. The PNG holds the scene, so Sixfold can open it again.",
+    );
     ui.horizontal(|ui| {
         let label = ui.label("of");
         ComboBox::from_id_salt("picture of")
@@ -150,8 +153,14 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
             to,
         };
         let path = fields.path.trim();
-        if ui.add_enabled(!path.is_empty(), egui::Button::new("Save")).clicked() {
-            let to = Destination::File { path: PathBuf::from(path), force: fields.force };
+        if ui
+            .add_enabled(!path.is_empty(), egui::Button::new("Save"))
+            .clicked()
+        {
+            let to = Destination::File {
+                path: PathBuf::from(path),
+                force: fields.force,
+            };
             model.push(Command::MakePicture(request(to)));
             done = true;
         }

@@ -160,7 +160,10 @@ impl Explorer {
         self.frames += 1;
         let ctx = ui.ctx().clone();
         let mut dialog = self.dialog.take();
-        let mut tree = std::mem::replace(&mut self.tree, egui_tiles::Tree::empty(egui::Id::unique("moved")));
+        let mut tree = std::mem::replace(
+            &mut self.tree,
+            egui_tiles::Tree::empty(egui::Id::unique("moved")),
+        );
         let (commands, laid_out) = self.with_model(|model| {
             window_ui(ui, model, &mut tree, &mut dialog);
             dialog_ui(&ctx, model, &mut dialog);
@@ -245,7 +248,8 @@ impl Explorer {
             };
             self.views.show(&self.gpu, *key, texture);
         }
-        self.views.retain(|key| laid_out.iter().any(|(shown, _)| *shown == key));
+        self.views
+            .retain(|key| laid_out.iter().any(|(shown, _)| *shown == key));
         self.probed = self.probed_color();
     }
 
@@ -269,9 +273,18 @@ impl Explorer {
             title: title.to_owned(),
             fraction: progress.fraction(),
         };
-        let loading = self.loading.iter().map(|(_, job)| line(job.id, &job.title, &job.progress));
-        let opening = self.opening.iter().map(|job| line(job.id, &job.title, &job.progress));
-        let pictures = self.pictures.iter().map(|(_, job)| line(job.id, &job.title, &job.progress));
+        let loading = self
+            .loading
+            .iter()
+            .map(|(_, job)| line(job.id, &job.title, &job.progress));
+        let opening = self
+            .opening
+            .iter()
+            .map(|job| line(job.id, &job.title, &job.progress));
+        let pictures = self
+            .pictures
+            .iter()
+            .map(|(_, job)| line(job.id, &job.title, &job.progress));
         loading.chain(opening).chain(pictures).collect()
     }
 
@@ -339,7 +352,10 @@ impl Explorer {
         let environment = state.environment.clone();
         self.state = state;
         self.follow_state();
-        let shown = self.surroundings.as_ref().is_some_and(|s| s.environment == environment);
+        let shown = self
+            .surroundings
+            .as_ref()
+            .is_some_and(|s| s.environment == environment);
         if !shown {
             self.load(ctx, environment);
         }
@@ -362,9 +378,12 @@ impl Explorer {
         let (id, wake) = (self.job_id(), ctx.clone());
         let wanted = environment.clone();
         let title = format!("opening {}", environment.name());
-        let job = Job::start(id, title, move || wake.request_repaint(), move |progress| {
-            wanted.image(progress)
-        });
+        let job = Job::start(
+            id,
+            title,
+            move || wake.request_repaint(),
+            move |progress| wanted.image(progress),
+        );
         match job {
             Ok(job) => self.loading = Some((environment, job)),
             Err(error) => self.fail(format!("no thread for opening the environment: {error}")),
@@ -375,8 +394,12 @@ impl Explorer {
     fn open(&mut self, ctx: &Context, path: PathBuf) {
         let (id, wake) = (self.job_id(), ctx.clone());
         let title = format!("reading {}", path.display());
-        let job =
-            Job::start(id, title, move || wake.request_repaint(), move |_| files::open(&path));
+        let job = Job::start(
+            id,
+            title,
+            move || wake.request_repaint(),
+            move |_| files::open(&path),
+        );
         match job {
             Ok(job) => self.opening = Some(job),
             Err(error) => self.fail(format!("no thread for opening the file: {error}")),
@@ -385,7 +408,9 @@ impl Explorer {
 
     fn make_picture(&mut self, ctx: &Context, request: PictureRequest) {
         let Some(surroundings) = self.surroundings.clone() else {
-            self.fail("the environment is still loading; save the picture when it is there".to_owned());
+            self.fail(
+                "the environment is still loading; save the picture when it is there".to_owned(),
+            );
             return;
         };
         let (id, wake, gpu) = (self.job_id(), ctx.clone(), self.gpu.clone());
@@ -405,9 +430,12 @@ impl Explorer {
     /// Opens a dialog of the system on a thread of its own.
     fn ask(&mut self, ctx: &Context, dialog: Dialog) {
         let (id, wake, kind) = (self.job_id(), ctx.clone(), dialog.clone());
-        let job = Job::start(id, "file dialog".to_owned(), move || wake.request_repaint(), move |_| {
-            files::ask(&kind)
-        });
+        let job = Job::start(
+            id,
+            "file dialog".to_owned(),
+            move || wake.request_repaint(),
+            move |_| files::ask(&kind),
+        );
         match job {
             Ok(job) => self.asked = Some((dialog, job)),
             Err(error) => self.fail(format!("no thread for the file dialog: {error}")),
@@ -428,17 +456,21 @@ impl Explorer {
     }
 
     fn poll_loading(&mut self) {
-        let Some((environment, job)) = self.loading.take() else { return };
+        let Some((environment, job)) = self.loading.take() else {
+            return;
+        };
         match job.poll() {
             Outcome::Running => self.loading = Some((environment, job)),
             Outcome::Done(Ok(loaded)) => {
                 // Of the built-in ones it stands beside their name; of a file it is news.
-                if let (Environment::File(_), Some(summary)) =
-                    (&environment, loaded.bad.summary())
+                if let (Environment::File(_), Some(summary)) = (&environment, loaded.bad.summary())
                 {
                     self.tell(format!("{}: {summary}", environment.name()));
                 }
-                self.install(Surroundings { environment, loaded: Arc::new(loaded) });
+                self.install(Surroundings {
+                    environment,
+                    loaded: Arc::new(loaded),
+                });
             }
             Outcome::Done(Err(error)) => self.loading_failed(error.to_string()),
             Outcome::Failed => {
@@ -474,11 +506,14 @@ impl Explorer {
     }
 
     fn poll_opening(&mut self, ctx: &Context) {
-        let Some(job) = self.opening.take() else { return };
+        let Some(job) = self.opening.take() else {
+            return;
+        };
         match job.poll() {
             Outcome::Running => self.opening = Some(job),
             Outcome::Done(Ok(Opened::Scene(state))) => {
-                self.history.record(&self.state, &Action::Load(state.clone()));
+                self.history
+                    .record(&self.state, &Action::Load(state.clone()));
                 self.replace(ctx, state.sanitized());
                 self.tree = panes::tree_of(&self.state);
             }
@@ -510,7 +545,9 @@ impl Explorer {
     }
 
     fn poll_asked(&mut self, ctx: &Context) {
-        let Some((dialog, job)) = self.asked.take() else { return };
+        let Some((dialog, job)) = self.asked.take() else {
+            return;
+        };
         let path = match job.poll() {
             Outcome::Running => {
                 self.asked = Some((dialog, job));
@@ -539,11 +576,17 @@ impl Explorer {
     }
 
     fn tell(&mut self, text: String) {
-        self.message(Message { text, is_error: false });
+        self.message(Message {
+            text,
+            is_error: false,
+        });
     }
 
     fn fail(&mut self, text: String) {
-        self.message(Message { text, is_error: true });
+        self.message(Message {
+            text,
+            is_error: true,
+        });
     }
 
     /// Shows a message once; the newest four stay.

@@ -24,7 +24,11 @@ pub enum Opened {
 /// # Errors
 /// One line that says what is wrong with the file.
 pub fn open(path: &Path) -> Result<Opened, String> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+    let extension = path
+        .extension()
+        .and_then(|e| e.to_str())
+        .unwrap_or("")
+        .to_ascii_lowercase();
     let scene = |text: &str| {
         AppState::from_json(text)
             .map(|state| Opened::Scene(Box::new(state)))
@@ -48,9 +52,10 @@ pub fn open(path: &Path) -> Result<Opened, String> {
 pub fn open_scene(path: &Path) -> Result<AppState, String> {
     match open(path)? {
         Opened::Scene(state) => Ok(*state),
-        Opened::Environment(environment) => {
-            Ok(AppState { environment, ..AppState::default() })
-        }
+        Opened::Environment(environment) => Ok(AppState {
+            environment,
+            ..AppState::default()
+        }),
     }
 }
 
@@ -61,10 +66,13 @@ fn environment(path: &Path) -> Opened {
 }
 
 fn read_text(path: &Path) -> Result<String, String> {
-    let describe = |error: std::io::Error| format!("the scene cannot be read ({error}): {}", path.display());
+    let describe =
+        |error: std::io::Error| format!("the scene cannot be read ({error}): {}", path.display());
     let file = std::fs::File::open(path).map_err(describe)?;
     let mut text = String::new();
-    file.take(MOST_SCENE_BYTES + 1).read_to_string(&mut text).map_err(describe)?;
+    file.take(MOST_SCENE_BYTES + 1)
+        .read_to_string(&mut text)
+        .map_err(describe)?;
     if text.len() as u64 > MOST_SCENE_BYTES {
         return Err(format!(
             "a scene has at most {MOST_SCENE_BYTES} bytes, this file has more: {}",
@@ -80,7 +88,10 @@ pub fn ask(dialog: &Dialog) -> Option<PathBuf> {
     let files = rfd::FileDialog::new();
     match dialog {
         Dialog::Open(_) => files
-            .add_filter("environments and scenes", &["hdr", "exr", "png", "jpg", "jpeg", "json"])
+            .add_filter(
+                "environments and scenes",
+                &["hdr", "exr", "png", "jpg", "jpeg", "json"],
+            )
             .pick_file(),
         Dialog::SaveScene(_) => files.set_file_name("scene.sixfold.json").save_file(),
         Dialog::Picture(_) => files.set_file_name("sixfold.png").save_file(),
@@ -94,7 +105,10 @@ mod tests {
     #[test]
     fn a_scene_comes_back_from_text_and_from_a_picture() {
         let folder = tempfile::tempdir().unwrap();
-        let state = AppState { divider: 0.25, ..AppState::default() };
+        let state = AppState {
+            divider: 0.25,
+            ..AppState::default()
+        };
         let text = folder.path().join("a.json");
         std::fs::write(&text, state.to_json()).unwrap();
         assert_eq!(open_scene(&text).unwrap(), state);

@@ -1,10 +1,10 @@
 //! From the state to what the renderer is asked for.
 
+use super::map_panel::window_of;
 use super::panel_view::rect_of_size;
 use super::state::AppState;
 use super::theme::PICTURE_BACKGROUND;
 use super::views::ViewKey;
-use super::map_panel::window_of;
 use crate::gpu::{Frame, Overlays, PanelFrame, ViewportFrame};
 
 /// The frame that shows `state` in the views that were laid out, with their sizes in pixels. A view that was not laid out

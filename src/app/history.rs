@@ -87,10 +87,21 @@ mod tests {
         let mut state = AppState::default();
         let first = state.clone();
         for _ in 0..5 {
-            run(&mut history, &mut state, Action::Orbit { dx_rad: 0.1, dy_rad: 0.0 });
+            run(
+                &mut history,
+                &mut state,
+                Action::Orbit {
+                    dx_rad: 0.1,
+                    dy_rad: 0.0,
+                },
+            );
         }
         let turned = state.clone();
-        run(&mut history, &mut state, Action::SetMapping(MappingId::Cube));
+        run(
+            &mut history,
+            &mut state,
+            Action::SetMapping(MappingId::Cube),
+        );
         state = history.undo(&state).unwrap();
         assert_eq!(state, turned);
         state = history.undo(&state).unwrap();
@@ -99,15 +110,29 @@ mod tests {
         state = history.redo(&state).unwrap();
         assert_eq!(state, turned);
         run(&mut history, &mut state, Action::SetMapping(MappingId::Eac));
-        assert!(!history.can_redo(), "a new change ends what could be made again");
+        assert!(
+            !history.can_redo(),
+            "a new change ends what could be made again"
+        );
     }
 
     #[test]
     fn moves_of_the_probe_are_not_undone() {
         let mut history = History::default();
         let mut state = AppState::default();
-        run(&mut history, &mut state, Action::SetMapping(MappingId::Cube));
-        run(&mut history, &mut state, Action::SetProbe { dir: [1.0, 0.0, 0.0], eye_ray: None });
+        run(
+            &mut history,
+            &mut state,
+            Action::SetMapping(MappingId::Cube),
+        );
+        run(
+            &mut history,
+            &mut state,
+            Action::SetProbe {
+                dir: [1.0, 0.0, 0.0],
+                eye_ray: None,
+            },
+        );
         state = history.undo(&state).unwrap();
         assert_eq!(state.probe, [1.0, 0.0, 0.0]);
         assert_ne!(state.mapping, MappingId::Cube);

@@ -17,16 +17,24 @@ use crate::math::{Vec3, inputs::SIGN_PATTERNS};
 
 /// Shows the inspector, scrolled where it is too long.
 pub fn inspector_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-        section(ui, "Probe", |ui| readout_ui(ui, model));
-        section(ui, "Which face: the sign table", |ui| sign_table_ui(ui, model));
-        section(ui, "Step by step", |ui| steps_ui(ui, model));
-        section(ui, "The same direction in every map", |ui| all_maps_ui(ui, model));
-    });
+    egui::ScrollArea::vertical()
+        .auto_shrink([false, false])
+        .show(ui, |ui| {
+            section(ui, "Probe", |ui| readout_ui(ui, model));
+            section(ui, "Which face: the sign table", |ui| {
+                sign_table_ui(ui, model)
+            });
+            section(ui, "Step by step", |ui| steps_ui(ui, model));
+            section(ui, "The same direction in every map", |ui| {
+                all_maps_ui(ui, model)
+            });
+        });
 }
 
 fn section(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
-    egui::CollapsingHeader::new(RichText::new(title).strong()).default_open(true).show(ui, content);
+    egui::CollapsingHeader::new(RichText::new(title).strong())
+        .default_open(true)
+        .show(ui, content);
 }
 
 fn mono(text: impl Into<String>) -> RichText {
@@ -55,34 +63,54 @@ fn readout_ui(ui: &mut Ui, model: &mut Model<'_>) {
         }
         place_menu(ui, model);
     });
-    Grid::new("readout").num_columns(2).spacing([10.0, 2.0]).show(ui, |ui| {
-        let mut row = |name: &str, value: String| {
-            ui.label(name);
-            let label = egui::Label::new(mono(&value)).selectable(true);
-            ui.add(label);
-            ui.end_row();
-        };
-        row("direction", format!("({}, {}, {})", fixed(dir.x), fixed(dir.y), fixed(dir.z)));
-        let longitude = f64::atan2(dir.x, dir.z).to_degrees();
-        let latitude = f64::atan2(dir.y, dir.x.hypot(dir.z)).to_degrees();
-        row("longitude, latitude", format!("{longitude:+.3}°, {latitude:+.3}°"));
-        let Some(point) = mapping.forward(dir) else { return };
-        let size = model.map_size(mapping);
-        let texel = texel_of(point, size);
-        row("mapping", info.name.to_owned());
-        row("chart", format!("{} ({})", point.chart, info.charts[point.chart as usize]));
-        row("u, v", format!("{:.7}, {:.7}", point.u, point.v));
-        row("texel", format!("{}, {} of {}×{}", texel[0], texel[1], size[0], size[1]));
-        let solid = mapping.texel_solid_angle_sr(point.chart, texel, size);
-        row("solid angle", format!("{:.4} µsr", solid * 1e6));
-        row("texel, linear light", color_text(model.texel_color));
-        if let Some(original) = model.surroundings.and_then(|s| bad_original(s, dir)) {
-            row("in the file", original);
-        }
-        if !info.coverage.contains(dir.to_f64()) {
-            row("note", "this map has no texel of its own for this direction".to_owned());
-        }
-    });
+    Grid::new("readout")
+        .num_columns(2)
+        .spacing([10.0, 2.0])
+        .show(ui, |ui| {
+            let mut row = |name: &str, value: String| {
+                ui.label(name);
+                let label = egui::Label::new(mono(&value)).selectable(true);
+                ui.add(label);
+                ui.end_row();
+            };
+            row(
+                "direction",
+                format!("({}, {}, {})", fixed(dir.x), fixed(dir.y), fixed(dir.z)),
+            );
+            let longitude = f64::atan2(dir.x, dir.z).to_degrees();
+            let latitude = f64::atan2(dir.y, dir.x.hypot(dir.z)).to_degrees();
+            row(
+                "longitude, latitude",
+                format!("{longitude:+.3}°, {latitude:+.3}°"),
+            );
+            let Some(point) = mapping.forward(dir) else {
+                return;
+            };
+            let size = model.map_size(mapping);
+            let texel = texel_of(point, size);
+            row("mapping", info.name.to_owned());
+            row(
+                "chart",
+                format!("{} ({})", point.chart, info.charts[point.chart as usize]),
+            );
+            row("u, v", format!("{:.7}, {:.7}", point.u, point.v));
+            row(
+                "texel",
+                format!("{}, {} of {}×{}", texel[0], texel[1], size[0], size[1]),
+            );
+            let solid = mapping.texel_solid_angle_sr(point.chart, texel, size);
+            row("solid angle", format!("{:.4} µsr", solid * 1e6));
+            row("texel, linear light", color_text(model.texel_color));
+            if let Some(original) = model.surroundings.and_then(|s| bad_original(s, dir)) {
+                row("in the file", original);
+            }
+            if !info.coverage.contains(dir.to_f64()) {
+                row(
+                    "note",
+                    "this map has no texel of its own for this direction".to_owned(),
+                );
+            }
+        });
 }
 
 fn color_text(color: Option<[f32; 3]>) -> String {
@@ -104,7 +132,11 @@ fn bad_original(surroundings: &super::model::Surroundings, dir: Vec3<f64>) -> Op
 /// Directions of interest: centres, edges' middles and corners of the cube, where ties are.
 fn place_menu(ui: &mut Ui, model: &mut Model<'_>) {
     ui.menu_button("Go to …", |ui| {
-        for (title, ties) in [("Face centres", 1), ("Edge middles (ties of two)", 2), ("Corners (ties of three)", 3)] {
+        for (title, ties) in [
+            ("Face centres", 1),
+            ("Edge middles (ties of two)", 2),
+            ("Corners (ties of three)", 3),
+        ] {
             ui.menu_button(title, |ui| {
                 for pattern in SIGN_PATTERNS {
                     if pattern.iter().filter(|c| **c != 0).count() != ties {
@@ -130,7 +162,12 @@ fn direction_name(pattern: [i8; 3]) -> String {
         1 => Some(format!("+{axis}")),
         _ => Some(format!("-{axis}")),
     };
-    pattern.iter().zip(["x", "y", "z"]).filter_map(part).collect::<Vec<_>>().join(" ")
+    pattern
+        .iter()
+        .zip(["x", "y", "z"])
+        .filter_map(part)
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// The paper's table with the dot products and the row that matches.
@@ -138,48 +175,68 @@ fn sign_table_ui(ui: &mut Ui, model: &Model<'_>) {
     let dir = model.state.probe_f64();
     let checks = great_circle_checks(dir);
     let face = sign_table(dir);
-    Grid::new("sign table").num_columns(7).spacing([7.0, 3.0]).show(ui, |ui| {
-        ui.label("circle");
-        for (i, (name, _)) in GREAT_CIRCLES.iter().enumerate() {
-            let [r, g, b] = GREAT_CIRCLE_COLORS[i];
-            ui.label(RichText::new(name.to_string()).strong().color(Color32::from_rgb(r, g, b)));
-        }
-        ui.end_row();
-        ui.label("normal·√2");
-        for (_, normal) in &GREAT_CIRCLES {
-            ui.label(mono(direction_name(*normal)).small());
-        }
-        ui.end_row();
-        ui.label("dot");
-        for (_, normal) in &GREAT_CIRCLES {
-            let normal = Vec3::<f64>::from_f64(normal.map(f64::from));
-            let dot = normal.dot(dir) * std::f64::consts::FRAC_1_SQRT_2;
-            ui.label(mono(format!("{dot:+.3}")).small());
-        }
-        ui.end_row();
-        ui.label("> 0 ?");
-        for check in checks {
-            ui.label(mono(if check { "+" } else { "-" }).strong());
-        }
-        ui.end_row();
-        for row in &SIGN_TABLE {
-            sign_row_ui(ui, FACES[row.face as usize], &row.checks, checks, row.face == face);
-        }
-    });
+    Grid::new("sign table")
+        .num_columns(7)
+        .spacing([7.0, 3.0])
+        .show(ui, |ui| {
+            ui.label("circle");
+            for (i, (name, _)) in GREAT_CIRCLES.iter().enumerate() {
+                let [r, g, b] = GREAT_CIRCLE_COLORS[i];
+                ui.label(
+                    RichText::new(name.to_string())
+                        .strong()
+                        .color(Color32::from_rgb(r, g, b)),
+                );
+            }
+            ui.end_row();
+            ui.label("normal·√2");
+            for (_, normal) in &GREAT_CIRCLES {
+                ui.label(mono(direction_name(*normal)).small());
+            }
+            ui.end_row();
+            ui.label("dot");
+            for (_, normal) in &GREAT_CIRCLES {
+                let normal = Vec3::<f64>::from_f64(normal.map(f64::from));
+                let dot = normal.dot(dir) * std::f64::consts::FRAC_1_SQRT_2;
+                ui.label(mono(format!("{dot:+.3}")).small());
+            }
+            ui.end_row();
+            ui.label("> 0 ?");
+            for check in checks {
+                ui.label(mono(if check { "+" } else { "-" }).strong());
+            }
+            ui.end_row();
+            for row in &SIGN_TABLE {
+                sign_row_ui(
+                    ui,
+                    FACES[row.face as usize],
+                    &row.checks,
+                    checks,
+                    row.face == face,
+                );
+            }
+        });
     ui.label(format!("The row of {} matches.", FACES[face as usize]));
     tie_ui(ui, dir, face);
 }
 
 /// One row: every check that counts, dim where it fails.
-fn sign_row_ui(
-    ui: &mut Ui,
-    name: &str,
-    needed: &[Option<bool>; 6],
-    checks: [bool; 6],
-    lit: bool,
-) {
-    let paint = |text: RichText| if lit { text.background_color(theme::LIT) } else { text };
-    ui.label(paint(mono(if lit { format!("▶ {name}") } else { format!("  {name}") }).strong()));
+fn sign_row_ui(ui: &mut Ui, name: &str, needed: &[Option<bool>; 6], checks: [bool; 6], lit: bool) {
+    let paint = |text: RichText| {
+        if lit {
+            text.background_color(theme::LIT)
+        } else {
+            text
+        }
+    };
+    ui.label(paint(
+        mono(if lit {
+            format!("▶ {name}")
+        } else {
+            format!("  {name}")
+        })
+        .strong(),
+    ));
     for (need, check) in needed.iter().zip(checks) {
         let text = match need {
             Some(true) => "+",
@@ -188,7 +245,11 @@ fn sign_row_ui(
         };
         let text = mono(format!("  {text}  "));
         let fails = need.is_some_and(|need| need != check);
-        ui.label(paint(if fails { text.color(Color32::from_gray(120)) } else { text.strong() }));
+        ui.label(paint(if fails {
+            text.color(Color32::from_gray(120))
+        } else {
+            text.strong()
+        }));
     }
     ui.end_row();
 }
@@ -226,9 +287,11 @@ fn steps_ui(ui: &mut Ui, model: &mut Model<'_>) {
             })
             .response
             .labelled_by(label.id);
-        for (precision, name) in
-            [(Precision::F32, "f32"), (Precision::F64, "f64"), (Precision::Both, "f32 | f64")]
-        {
+        for (precision, name) in [
+            (Precision::F32, "f32"),
+            (Precision::F64, "f64"),
+            (Precision::Both, "f32 | f64"),
+        ] {
             ui.selectable_value(&mut inspector.precision, precision, name);
         }
     });
@@ -274,7 +337,11 @@ fn copy_all(
     double: &[Step],
 ) {
     if ui.button("Copy all steps").clicked() {
-        let steps = if inspector.precision == Precision::F64 { double } else { single };
+        let steps = if inspector.precision == Precision::F64 {
+            double
+        } else {
+            single
+        };
         let lines: Vec<String> = steps.iter().map(step_text).collect();
         model.push(Command::CopyText(lines.join("\n")));
     }
@@ -305,7 +372,9 @@ fn step_ui(ui: &mut Ui, model: &mut Model<'_>, index: usize, step: &Step, values
 }
 
 fn copy_button(ui: &mut Ui, model: &mut Model<'_>, text: impl FnOnce() -> String) {
-    let response = ui.small_button("copy").on_hover_text("Copy this formula as text");
+    let response = ui
+        .small_button("copy")
+        .on_hover_text("Copy this formula as text");
     if response.clicked() {
         model.push(Command::CopyText(text()));
     }
@@ -317,12 +386,19 @@ fn conventions_ui(ui: &mut Ui, model: &mut Model<'_>, inspector: InspectorState)
     let [x, y, z] = model.state.probe;
     for convention in inspector.mapping.info().conventions {
         let [index, s, t] = convention.columns;
-        let line = |p: ChartPoint<String>| format!("{index} = {}, {s} = {}, {t} = {}", p.chart, p.u, p.v);
+        let line =
+            |p: ChartPoint<String>| format!("{index} = {}, {s} = {}, {t} = {}", p.chart, p.u, p.v);
         let texts = [
-            (convention.forward.0)(Vec3::new(x, y, z))
-                .map(|p| ChartPoint { chart: p.chart, u: p.u.to_string(), v: p.v.to_string() }),
-            (convention.forward.1)(dir)
-                .map(|p| ChartPoint { chart: p.chart, u: p.u.to_string(), v: p.v.to_string() }),
+            (convention.forward.0)(Vec3::new(x, y, z)).map(|p| ChartPoint {
+                chart: p.chart,
+                u: p.u.to_string(),
+                v: p.v.to_string(),
+            }),
+            (convention.forward.1)(dir).map(|p| ChartPoint {
+                chart: p.chart,
+                u: p.u.to_string(),
+                v: p.v.to_string(),
+            }),
         ]
         .map(|p| p.map_or_else(|| "no direction".to_owned(), line));
         ui.horizontal_wrapped(|ui| {
@@ -345,7 +421,9 @@ fn conventions_ui(ui: &mut Ui, model: &mut Model<'_>, inspector: InspectorState)
 fn errata_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
     let dir = model.state.probe_f64();
     for erratum in mapping.info().errata {
-        let Some((printed, right)) = (erratum.values)(dir) else { continue };
+        let Some((printed, right)) = (erratum.values)(dir) else {
+            continue;
+        };
         let wrong = Color32::from_rgb(255, 150, 120);
         ui.horizontal_wrapped(|ui| {
             copy_button(ui, model, || {
@@ -359,7 +437,10 @@ fn errata_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
         ui.add(egui::Label::new(mono(format!("printed  {}", erratum.printed)).color(wrong)).wrap());
         ui.label(mono(format!("       = {printed:.7}")).color(wrong));
         ui.add(egui::Label::new(mono(format!("right    {}", erratum.right))).wrap());
-        ui.label(mono(format!("       = {right:.7}   (off by {:+.7})", printed - right)));
+        ui.label(mono(format!(
+            "       = {right:.7}   (off by {:+.7})",
+            printed - right
+        )));
         ui.label(RichText::new(erratum.why).small());
     }
 }
@@ -367,30 +448,36 @@ fn errata_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
 /// Chart, u, v, texel and solid angle in each open map.
 fn all_maps_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let dir = model.state.probe_f64();
-    Grid::new("all maps").num_columns(5).striped(true).spacing([8.0, 2.0]).show(ui, |ui| {
-        for title in ["map", "chart", "u", "v", "µsr"] {
-            ui.label(RichText::new(title).strong().small());
-        }
-        ui.end_row();
-        for &mapping in MappingId::ALL {
-            let info = mapping.info();
-            let Some(point) = mapping.forward(dir) else { continue };
-            let name = RichText::new(info.name).small();
-            let chosen = mapping == model.state.mapping;
-            ui.label(if chosen { name.strong() } else { name });
-            let size = model.map_size(mapping);
-            let texel = texel_of(point, size);
-            let solid = mapping.texel_solid_angle_sr(point.chart, texel, size) * 1e6;
-            let cells = [
-                info.charts[point.chart as usize].to_owned(),
-                format!("{:.5}", point.u),
-                format!("{:.5}", point.v),
-                format!("{solid:.3}"),
-            ];
-            for cell in cells {
-                ui.label(mono(cell).small());
+    Grid::new("all maps")
+        .num_columns(5)
+        .striped(true)
+        .spacing([8.0, 2.0])
+        .show(ui, |ui| {
+            for title in ["map", "chart", "u", "v", "µsr"] {
+                ui.label(RichText::new(title).strong().small());
             }
             ui.end_row();
-        }
-    });
+            for &mapping in MappingId::ALL {
+                let info = mapping.info();
+                let Some(point) = mapping.forward(dir) else {
+                    continue;
+                };
+                let name = RichText::new(info.name).small();
+                let chosen = mapping == model.state.mapping;
+                ui.label(if chosen { name.strong() } else { name });
+                let size = model.map_size(mapping);
+                let texel = texel_of(point, size);
+                let solid = mapping.texel_solid_angle_sr(point.chart, texel, size) * 1e6;
+                let cells = [
+                    info.charts[point.chart as usize].to_owned(),
+                    format!("{:.5}", point.u),
+                    format!("{:.5}", point.v),
+                    format!("{solid:.3}"),
+                ];
+                for cell in cells {
+                    ui.label(mono(cell).small());
+                }
+                ui.end_row();
+            }
+        });
 }

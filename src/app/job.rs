@@ -40,12 +40,19 @@ impl<T: Send + 'static> Job<T> {
         let progress = Arc::new(Progress::new());
         let shared = Arc::clone(&progress);
         let (sender, result) = channel();
-        std::thread::Builder::new().name(title.clone()).spawn(move || {
-            let outcome = work(&shared);
-            drop(sender.send(outcome)); // nobody listens to a job that was replaced
-            wake();
-        })?;
-        Ok(Self { id, title, progress, result })
+        std::thread::Builder::new()
+            .name(title.clone())
+            .spawn(move || {
+                let outcome = work(&shared);
+                drop(sender.send(outcome)); // nobody listens to a job that was replaced
+                wake();
+            })?;
+        Ok(Self {
+            id,
+            title,
+            progress,
+            result,
+        })
     }
 
     /// Looks for the result without waiting.
@@ -86,11 +93,16 @@ mod tests {
 
     #[test]
     fn a_dropped_job_is_asked_to_stop() {
-        let job = Job::start(2, "wait".to_owned(), || (), |progress: &Progress| {
-            while !progress.is_cancelled() {
-                std::thread::yield_now();
-            }
-        })
+        let job = Job::start(
+            2,
+            "wait".to_owned(),
+            || (),
+            |progress: &Progress| {
+                while !progress.is_cancelled() {
+                    std::thread::yield_now();
+                }
+            },
+        )
         .unwrap();
         let progress = Arc::clone(&job.progress);
         assert!(!progress.is_cancelled());

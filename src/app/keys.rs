@@ -39,7 +39,13 @@ pub fn commands(ctx: &Context, state: &AppState, dialog: &mut Option<Dialog>) ->
         if state.probe_follows {
             commands.push(Action::FollowPointer(false).into());
         }
-        commands.push(Action::StepProbe { columns: stride * columns, rows: stride * rows }.into());
+        commands.push(
+            Action::StepProbe {
+                columns: stride * columns,
+                rows: stride * rows,
+            }
+            .into(),
+        );
     }
     for (key, dx_rad, dy_rad) in [
         (Key::A, -TURN_RAD, 0.0),

@@ -51,27 +51,34 @@ fn pointer(
     window: &PanelWindow,
     response: &Response,
 ) {
-    if response.dragged_by(PointerButton::Secondary) || response.dragged_by(PointerButton::Middle)
-    {
-        model.push(Action::SetPanelView(window.panned(view, response.drag_delta())));
+    if response.dragged_by(PointerButton::Secondary) || response.dragged_by(PointerButton::Middle) {
+        model.push(Action::SetPanelView(
+            window.panned(view, response.drag_delta()),
+        ));
         return;
     }
-    let Some(pos) = response.hover_pos().or(response.interact_pointer_pos()) else { return };
+    let Some(pos) = response.hover_pos().or(response.interact_pointer_pos()) else {
+        return;
+    };
     let scroll = ui.input(|i| i.smooth_scroll_delta.y);
     if response.contains_pointer() && scroll != 0.0 {
         let zoomed = window.zoomed(view, (scroll * 0.005).exp(), pos);
         model.push(Action::SetPanelView(zoomed));
     }
     if response.double_clicked() {
-        model.push(Action::SetPanelView(PanelState::new(view.mapping, view.open)));
+        model.push(Action::SetPanelView(PanelState::new(
+            view.mapping,
+            view.open,
+        )));
     }
     let moved = ui.input(|i| i.pointer.delta() != egui::Vec2::ZERO || i.pointer.any_pressed());
     let held = response.dragged_by(PointerButton::Primary) || response.clicked();
     if held || (model.state.probe_follows && moved) {
         let layout = view.mapping.info().layout;
         let place = window.picture_from_screen(pos);
-        if let Some(action) =
-            layout.chart_from_picture(place).and_then(|point| probe_at(view.mapping, point))
+        if let Some(action) = layout
+            .chart_from_picture(place)
+            .and_then(|point| probe_at(view.mapping, point))
         {
             model.push(action);
         }
@@ -107,7 +114,10 @@ fn paint_probe(
     let info = mapping.info();
     let lines = |outline: &[_], width: f32, color: Color32| {
         for line in picture_lines(mapping, outline) {
-            let points = line.into_iter().map(|p| window.screen_from_picture(p)).collect();
+            let points = line
+                .into_iter()
+                .map(|p| window.screen_from_picture(p))
+                .collect();
             edged_line(painter, points, width, color);
         }
     };
@@ -117,9 +127,15 @@ fn paint_probe(
     let own = model.map_size(mapping);
     let texel_points = window.points_across() / (columns * own[0]) as f32;
     if texel_points >= SMALLEST_TEXEL {
-        lines(&texel_outline(model.state.mapping, size, dir), 1.5, theme::TEXEL);
+        lines(
+            &texel_outline(model.state.mapping, size, dir),
+            1.5,
+            theme::TEXEL,
+        );
     }
-    let place = mapping.forward(dir).and_then(|p| info.layout.picture_from_chart(p));
+    let place = mapping
+        .forward(dir)
+        .and_then(|p| info.layout.picture_from_chart(p));
     if let Some(place) = place {
         let own = info.coverage.contains(dir.to_f64());
         let color = if own { theme::PROBE } else { Color32::GRAY };

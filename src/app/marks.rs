@@ -32,12 +32,26 @@ pub fn arrow(painter: &Painter, from: Pos2, to: Pos2, color: Color32, name: &str
     if along.length() > 2.0 {
         let dir = along.normalized();
         let side = Vec2::new(-dir.y, dir.x);
-        let barbs = [to - dir * HEAD + side * HEAD * 0.45, to, to - dir * HEAD - side * HEAD * 0.45];
+        let barbs = [
+            to - dir * HEAD + side * HEAD * 0.45,
+            to,
+            to - dir * HEAD - side * HEAD * 0.45,
+        ];
         edged_line(painter, barbs.to_vec(), 2.0, color);
     }
     if !name.is_empty() {
-        let away = if along.length() > 0.0 { along.normalized() } else { Vec2::X };
-        edged_text(painter, to + away * 10.0, Align2::CENTER_CENTER, name, color);
+        let away = if along.length() > 0.0 {
+            along.normalized()
+        } else {
+            Vec2::X
+        };
+        edged_text(
+            painter,
+            to + away * 10.0,
+            Align2::CENTER_CENTER,
+            name,
+            color,
+        );
     }
 }
 
@@ -45,7 +59,13 @@ pub fn arrow(painter: &Painter, from: Pos2, to: Pos2, color: Color32, name: &str
 pub fn edged_text(painter: &Painter, at: Pos2, anchor: Align2, text: &str, color: Color32) {
     let font = FontId::proportional(13.0);
     for offset in [Vec2::X, -Vec2::X, Vec2::Y, -Vec2::Y] {
-        painter.text(at + offset, anchor, text, font.clone(), PROBE_EDGE.gamma_multiply(0.8));
+        painter.text(
+            at + offset,
+            anchor,
+            text,
+            font.clone(),
+            PROBE_EDGE.gamma_multiply(0.8),
+        );
     }
     painter.text(at, anchor, text, font, color);
 }

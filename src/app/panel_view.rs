@@ -20,7 +20,11 @@ impl PanelWindow {
     /// The view of a panel of which the picture is `aspect` times as wide as high.
     pub fn new(rect: Rect, view: &PanelState, aspect: f32) -> Self {
         let width = FIT * rect.width().min(rect.height() * aspect).max(1.0) * view.zoom;
-        Self { rect, center: view.center, size: Vec2::new(width, width / aspect) }
+        Self {
+            rect,
+            center: view.center,
+            size: Vec2::new(width, width / aspect),
+        }
     }
 
     /// Picture coordinates x0, y0, x1, y1 of the panel's borders; beyond [0, 1] there is nothing.
@@ -53,7 +57,10 @@ impl PanelWindow {
     pub fn panned(&self, view: PanelState, by: Vec2) -> PanelState {
         let shift = by / self.size;
         let center = [view.center[0] - shift.x, view.center[1] - shift.y];
-        PanelState { center: center.map(|c| c.clamp(0.0, 1.0)), ..view }
+        PanelState {
+            center: center.map(|c| c.clamp(0.0, 1.0)),
+            ..view
+        }
     }
 
     /// The view magnified by a factor around a place on the screen, which stays where it is.
@@ -65,8 +72,15 @@ impl PanelWindow {
         let kept = self.picture_from_screen(around);
         let share = 1.0 - view.zoom / zoom;
         let toward = |center: f32, kept: f64| center + (kept as f32 - center) * share;
-        let center = [toward(view.center[0], kept[0]), toward(view.center[1], kept[1])];
-        PanelState { zoom, center: center.map(|c| c.clamp(0.0, 1.0)), ..view }
+        let center = [
+            toward(view.center[0], kept[0]),
+            toward(view.center[1], kept[1]),
+        ];
+        PanelState {
+            zoom,
+            center: center.map(|c| c.clamp(0.0, 1.0)),
+            ..view
+        }
     }
 
     /// Size of one picture unit on the screen in points, across.

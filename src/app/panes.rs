@@ -1,6 +1,8 @@
 //! The arrangement: the viewport and one panel a mapping as tiles that can be moved, hidden and maximised.
 
-use egui_tiles::{Behavior, Container, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
+use egui_tiles::{
+    Behavior, Container, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse,
+};
 use serde::{Deserialize, Serialize};
 
 use super::action::Action;
@@ -34,7 +36,9 @@ pub fn first_tree(state: &AppState) -> Tree<Pane> {
     let mut tiles = Tiles::default();
     let viewport = tiles.insert_pane(Pane::Viewport);
     let open = state.panels.iter().filter(|p| p.open);
-    let maps: Vec<TileId> = open.map(|p| tiles.insert_pane(Pane::Map(p.mapping))).collect();
+    let maps: Vec<TileId> = open
+        .map(|p| tiles.insert_pane(Pane::Map(p.mapping)))
+        .collect();
     let grid = tiles.insert_grid_tile(maps);
     let root = tiles.insert_vertical_tile(vec![viewport, grid]);
     if let Some(Tile::Container(Container::Linear(linear))) = tiles.get_mut(root) {
@@ -46,7 +50,10 @@ pub fn first_tree(state: &AppState) -> Tree<Pane> {
 
 /// The saved arrangement, or the first one where none was saved or it cannot be read.
 pub fn tree_of(state: &AppState) -> Tree<Pane> {
-    let saved = state.arrangement.clone().and_then(|v| serde_json::from_value(v).ok());
+    let saved = state
+        .arrangement
+        .clone()
+        .and_then(|v| serde_json::from_value(v).ok());
     let mut tree = saved.unwrap_or_else(|| first_tree(state));
     follow(&mut tree, state);
     tree
@@ -100,7 +107,10 @@ pub fn panes_ui(ui: &mut egui::Ui, model: &mut Model<'_>, tree: &mut Tree<Pane>)
         pane_ui(ui, model, pane);
         return;
     }
-    let mut behavior = PaneBehavior { model, edited: false };
+    let mut behavior = PaneBehavior {
+        model,
+        edited: false,
+    };
     tree.ui(&mut behavior, ui);
     if behavior.edited {
         let arrangement = serde_json::to_value(&*tree).ok();
@@ -149,25 +159,30 @@ impl Behavior<Pane> for PaneBehavior<'_, '_> {
         tabs: &egui_tiles::Tabs,
         _: &mut f32,
     ) {
-        let Some(Tile::Pane(pane)) = tabs.active.and_then(|id| tiles.get(id)) else { return };
+        let Some(Tile::Pane(pane)) = tabs.active.and_then(|id| tiles.get(id)) else {
+            return;
+        };
         let name = format!("Maximise {}", pane.name());
         let (rect, response) = ui.allocate_exact_size(egui::vec2(16.0, 16.0), egui::Sense::click());
         let color = ui.style().interact(&response).fg_stroke.color;
         let frame = egui::Rect::from_center_size(rect.center(), egui::vec2(9.0, 9.0));
         let stroke = egui::Stroke::new(1.2, color);
-        ui.painter().rect_stroke(frame, 1.0, stroke, egui::StrokeKind::Middle);
-        ui.painter().line_segment([frame.left_top(), frame.right_top()], (2.4, color));
+        ui.painter()
+            .rect_stroke(frame, 1.0, stroke, egui::StrokeKind::Middle);
+        ui.painter()
+            .line_segment([frame.left_top(), frame.right_top()], (2.4, color));
         let response = response.on_hover_text(&name);
-        response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::Role::Button, true, name.as_str())
-        });
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name.as_str()));
         if response.clicked() {
             self.model.push(Command::Maximise(Some(*pane)));
         }
     }
 
     fn simplification_options(&self) -> SimplificationOptions {
-        SimplificationOptions { all_panes_must_have_tabs: true, ..Default::default() }
+        SimplificationOptions {
+            all_panes_must_have_tabs: true,
+            ..Default::default()
+        }
     }
 
     fn tab_bar_height(&self, _: &egui::Style) -> f32 {
@@ -194,7 +209,10 @@ mod tests {
         let mut state = AppState::default();
         let mut tree = tree_of(&state);
         let shown = |tree: &Tree<Pane>| {
-            MappingId::ALL.iter().filter(|m| find(tree, Pane::Map(**m)).is_some()).count()
+            MappingId::ALL
+                .iter()
+                .filter(|m| find(tree, Pane::Map(**m)).is_some())
+                .count()
         };
         assert_eq!(shown(&tree), 6);
         state.panel_mut(MappingId::Eac).unwrap().open = true;

@@ -115,13 +115,29 @@ pub fn render(state: &AppState, request: &PictureRequest) -> Result<(), String> 
     let progress = Progress::new();
     let gpu = Gpu::headless().map_err(|error| error.to_string())?;
     let environment = state.environment.clone();
-    let loaded = environment.image(&progress).map_err(|error| error.to_string())?;
-    let surroundings = Surroundings { environment, loaded: Arc::new(loaded) };
-    make(&gpu, &state.clone().sanitized(), surroundings, request, &progress).map(drop)
+    let loaded = environment
+        .image(&progress)
+        .map_err(|error| error.to_string())?;
+    let surroundings = Surroundings {
+        environment,
+        loaded: Arc::new(loaded),
+    };
+    make(
+        &gpu,
+        &state.clone().sanitized(),
+        surroundings,
+        request,
+        &progress,
+    )
+    .map(drop)
 }
 
 fn check_cancelled(progress: &Progress) -> Result<(), String> {
-    if progress.is_cancelled() { Err("the picture was cancelled".to_owned()) } else { Ok(()) }
+    if progress.is_cancelled() {
+        Err("the picture was cancelled".to_owned())
+    } else {
+        Ok(())
+    }
 }
 
 /// Passes of the layout before the picture counts: sizes of widgets settle in the second, scroll bars in the third.
@@ -181,7 +197,9 @@ fn points_scale(what: What, [width, height]: [u32; 2]) -> f32 {
         What::Window => vec2(1920.0, 1200.0),
         What::Viewport | What::Panel(_) => vec2(1280.0, 1000.0),
     };
-    (width as f32 / usual.x).min(height as f32 / usual.y).max(1.0)
+    (width as f32 / usual.x)
+        .min(height as f32 / usual.y)
+        .max(1.0)
 }
 
 fn raw_input(size: [u32; 2], scale: f32) -> RawInput {
@@ -193,7 +211,10 @@ fn raw_input(size: [u32; 2], scale: f32) -> RawInput {
         max_texture_side: Some(MAX_SIDE as usize),
         ..RawInput::default()
     };
-    let viewport = ViewportInfo { native_pixels_per_point: Some(scale), ..Default::default() };
+    let viewport = ViewportInfo {
+        native_pixels_per_point: Some(scale),
+        ..Default::default()
+    };
     input.viewports.insert(ViewportId::ROOT, viewport);
     input
 }
@@ -212,7 +233,11 @@ impl Canvas {
             .checked(|device| {
                 device.create_texture(&wgpu::TextureDescriptor {
                     label: Some("picture"),
-                    size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+                    size: wgpu::Extent3d {
+                        width: size[0],
+                        height: size[1],
+                        depth_or_array_layers: 1,
+                    },
                     mip_level_count: 1,
                     sample_count: 1,
                     dimension: wgpu::TextureDimension::D2,
@@ -223,9 +248,16 @@ impl Canvas {
             })
             .map_err(|error| error.to_string())?;
         // Without dithering the same scene gives the same bytes.
-        let options = egui_wgpu::RendererOptions { dithering: false, ..Default::default() };
+        let options = egui_wgpu::RendererOptions {
+            dithering: false,
+            ..Default::default()
+        };
         let painter = egui_wgpu::Renderer::new(&gpu.device, format, options);
-        Ok(Self { texture, painter: Arc::new(RwLock::new(painter)), size })
+        Ok(Self {
+            texture,
+            painter: Arc::new(RwLock::new(painter)),
+            size,
+        })
     }
 
     /// Takes over the fonts and images that a pass has changed.
@@ -247,7 +279,10 @@ impl Canvas {
         scale: f32,
     ) -> Result<Vec<u8>, String> {
         let shapes = ctx.tessellate(output.shapes, scale);
-        let screen = egui_wgpu::ScreenDescriptor { size_in_pixels: self.size, pixels_per_point: scale };
+        let screen = egui_wgpu::ScreenDescriptor {
+            size_in_pixels: self.size,
+            pixels_per_point: scale,
+        };
         let mut painter = self.painter.write();
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let mut buffers =

@@ -48,7 +48,9 @@ pub fn face_outline(dir: Vec3<f64>) -> Outline {
 
 /// The border of the texel of `mapping` that holds `dir`, on charts of `size` texels; empty when it has none.
 pub fn texel_outline(mapping: MappingId, size: [u32; 2], dir: Vec3<f64>) -> Outline {
-    let Some(point) = mapping.forward(dir) else { return Outline::new() };
+    let Some(point) = mapping.forward(dir) else {
+        return Outline::new();
+    };
     let texel = texel_of(point, size).map(f64::from);
     let place = |t: f64, c: f64, n: u32| (t + 0.5 + 0.5 * c) / f64::from(n);
     square(|x, y| {
@@ -59,7 +61,13 @@ pub fn texel_outline(mapping: MappingId, size: [u32; 2], dir: Vec3<f64>) -> Outl
 
 /// The image of the border of [-1, 1]^2, closed; points without an image are left out.
 fn square(image: impl Fn(f64, f64) -> Option<Vec3<f64>>) -> Outline {
-    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]];
+    let corners = [
+        [-1.0, -1.0],
+        [1.0, -1.0],
+        [1.0, 1.0],
+        [-1.0, 1.0],
+        [-1.0, -1.0],
+    ];
     let mut outline = Outline::new();
     for side in corners.windows(2) {
         for i in 0..SIDE_POINTS {
@@ -103,20 +111,18 @@ pub fn picture_lines(mapping: MappingId, outline: &[Vec3<f64>]) -> Vec<Vec<[f64;
 
 /// True when the picture is cut between two neighbouring points: the middle of the arc between them does not lie near the
 /// middle of the line between their places.
-fn is_cut(
-    mapping: MappingId,
-    a: Vec3<f64>,
-    at_a: [f64; 2],
-    b: Vec3<f64>,
-    at_b: [f64; 2],
-) -> bool {
+fn is_cut(mapping: MappingId, a: Vec3<f64>, at_a: [f64; 2], b: Vec3<f64>, at_b: [f64; 2]) -> bool {
     let length = (at_b[0] - at_a[0]).hypot(at_b[1] - at_a[1]);
     // Neighbouring points of an outline lie close together unless a seam parts them.
     if length < 1e-3 {
         return false;
     }
-    let Some(middle) = mapping.forward(a + b) else { return true };
-    let Some(place) = mapping.info().layout.picture_from_chart(middle) else { return true };
+    let Some(middle) = mapping.forward(a + b) else {
+        return true;
+    };
+    let Some(place) = mapping.info().layout.picture_from_chart(middle) else {
+        return true;
+    };
     let off = (place[0] - 0.5 * (at_a[0] + at_b[0])).hypot(place[1] - 0.5 * (at_a[1] + at_b[1]));
     off > 0.25 * length
 }
@@ -153,7 +159,9 @@ mod tests {
                     continue;
                 }
                 let outline = texel_outline(mapping, size, dir);
-                let Some(point) = mapping.forward(dir) else { continue };
+                let Some(point) = mapping.forward(dir) else {
+                    continue;
+                };
                 let texel = texel_of(point, size).map(f64::from);
                 for d in outline {
                     let p = mapping.forward(d).unwrap();
@@ -165,7 +173,10 @@ mod tests {
                     seen += usize::from(near(x) && near(y));
                 }
             }
-            assert!(seen > 10_000, "{mapping}: {seen} border points near their texel");
+            assert!(
+                seen > 10_000,
+                "{mapping}: {seen} border points near their texel"
+            );
         }
     }
 
@@ -180,7 +191,10 @@ mod tests {
                         .windows(2)
                         .map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]))
                         .fold(0.0, f64::max);
-                    assert!(longest < 0.2, "{mapping}: a stroke of {longest} across the picture");
+                    assert!(
+                        longest < 0.2,
+                        "{mapping}: a stroke of {longest} across the picture"
+                    );
                 }
             }
         }
@@ -200,9 +214,13 @@ mod tests {
             for _ in 0..300 {
                 let dir = random_dir(&mut random);
                 // The last column of a chart, then one more to the right.
-                let Some(point) = mapping.forward(dir) else { continue };
+                let Some(point) = mapping.forward(dir) else {
+                    continue;
+                };
                 let border = ChartPoint::new(point.chart, 1.0 - 1e-3, point.v);
-                let Some(start) = mapping.inverse(border) else { continue };
+                let Some(start) = mapping.inverse(border) else {
+                    continue;
+                };
                 let Some(next) = stepped(mapping, size, start, 1, 0) else {
                     panic!("{mapping}: no step from {start:?}")
                 };

@@ -121,7 +121,12 @@ pub const TEXEL_BUDGET_RANGE: (u32, u32) = (6 * 16 * 16, 6 * 2048 * 2048);
 impl PanelState {
     /// A panel that shows the whole picture.
     pub fn new(mapping: MappingId, open: bool) -> Self {
-        Self { mapping, open, zoom: 1.0, center: [0.5, 0.5] }
+        Self {
+            mapping,
+            open,
+            zoom: 1.0,
+            center: [0.5, 0.5],
+        }
     }
 }
 
@@ -168,8 +173,11 @@ pub enum Precision {
 impl Default for AppState {
     fn default() -> Self {
         // The seeds' six, which come first in the registry, are open.
-        let panels =
-            MappingId::ALL.iter().enumerate().map(|(i, &m)| PanelState::new(m, i < 6)).collect();
+        let panels = MappingId::ALL
+            .iter()
+            .enumerate()
+            .map(|(i, &m)| PanelState::new(m, i < 6))
+            .collect();
         Self {
             schema: SCHEMA,
             environment: Environment::default(),
@@ -177,7 +185,11 @@ impl Default for AppState {
             compare: None,
             divider: 0.5,
             object: Object::Teapot,
-            camera: Camera { yaw_rad: 0.5, pitch_rad: 0.3, ..Camera::default() },
+            camera: Camera {
+                yaw_rad: 0.5,
+                pitch_rad: 0.3,
+                ..Camera::default()
+            },
             exposure_ev: 0.0,
             tone: ToneCurve::default(),
             texel_budget: 6 * 512 * 512,
@@ -199,7 +211,9 @@ pub enum SceneError {
     #[error("this is not a Sixfold scene: {0}")]
     NotAScene(#[from] serde_json::Error),
     /// Written by a later version.
-    #[error("the scene has form {found}, this program knows {SCHEMA}: open it with a newer Sixfold")]
+    #[error(
+        "the scene has form {found}, this program knows {SCHEMA}: open it with a newer Sixfold"
+    )]
     TooNew {
         /// The form found.
         found: u32,
@@ -233,9 +247,13 @@ impl AppState {
         self.divider = finite(self.divider, 0.5).clamp(0.0, 1.0);
         self.camera = self.camera.sanitized();
         self.exposure_ev = finite(self.exposure_ev, 0.0).clamp(EXPOSURE_RANGE.0, EXPOSURE_RANGE.1);
-        self.texel_budget = self.texel_budget.clamp(TEXEL_BUDGET_RANGE.0, TEXEL_BUDGET_RANGE.1);
+        self.texel_budget = self
+            .texel_budget
+            .clamp(TEXEL_BUDGET_RANGE.0, TEXEL_BUDGET_RANGE.1);
         self.probe = unit(self.probe);
-        self.eye_ray = self.eye_ray.filter(|uv| uv.iter().all(|c| (0.0..=1.0).contains(c)));
+        self.eye_ray = self
+            .eye_ray
+            .filter(|uv| uv.iter().all(|c| (0.0..=1.0).contains(c)));
         // One panel for each mapping, whatever the file holds.
         let saved = std::mem::take(&mut self.panels);
         self.panels = MappingId::ALL
@@ -273,7 +291,10 @@ impl AppState {
 pub fn unit(dir: [f32; 3]) -> [f32; 3] {
     let dir = Vec3::new(dir[0], dir[1], dir[2]);
     match dir.scaled_direction() {
-        Some(d) => Vec3::<f64>::from_f64(d.to_f64()).normalized().to_array().map(|c| c as f32),
+        Some(d) => Vec3::<f64>::from_f64(d.to_f64())
+            .normalized()
+            .to_array()
+            .map(|c| c as f32),
         None => [0.0, 0.0, 1.0],
     }
 }
@@ -284,19 +305,27 @@ mod tests {
 
     #[test]
     fn a_scene_survives_its_file() {
-        let state = AppState { compare: Some(MappingId::Eac), ..AppState::default() };
+        let state = AppState {
+            compare: Some(MappingId::Eac),
+            ..AppState::default()
+        };
         assert_eq!(AppState::from_json(&state.to_json()).unwrap(), state);
-        let other = AppState { compare: Some(MappingId::Cube), ..state.clone() };
+        let other = AppState {
+            compare: Some(MappingId::Cube),
+            ..state.clone()
+        };
         assert_ne!(AppState::from_json(&other.to_json()).unwrap(), state);
     }
 
     #[test]
     fn numbers_out_of_range_are_brought_back() {
-        let mut state = AppState::default();
-        state.probe = [f32::NAN, 0.0, 0.0];
-        state.texel_budget = u32::MAX;
-        state.divider = f32::INFINITY;
-        state.panels.clear();
+        let state = AppState {
+            probe: [f32::NAN, 0.0, 0.0],
+            texel_budget: u32::MAX,
+            divider: f32::INFINITY,
+            panels: Vec::new(),
+            ..AppState::default()
+        };
         let state = state.sanitized();
         assert_eq!(state.probe, [0.0, 0.0, 1.0]);
         assert_eq!(state.texel_budget, TEXEL_BUDGET_RANGE.1);
@@ -306,7 +335,9 @@ mod tests {
 
     #[test]
     fn a_later_form_and_a_foreign_file_are_refused_with_a_reason() {
-        let later = AppState::from_json(r#"{"schema": 99}"#).unwrap_err().to_string();
+        let later = AppState::from_json(r#"{"schema": 99}"#)
+            .unwrap_err()
+            .to_string();
         assert!(later.contains("99"), "{later}");
         assert!(AppState::from_json("{}").is_err());
         assert!(AppState::from_json("P6 1 1").is_err());
@@ -318,7 +349,10 @@ mod tests {
         for pattern in crate::math::inputs::SIGN_PATTERNS {
             let dir = unit(pattern.map(f32::from));
             let size: Vec<f32> = dir.iter().map(|c| c.abs()).filter(|c| *c > 0.0).collect();
-            assert!(size.windows(2).all(|w| w[0] == w[1]), "{pattern:?} became {dir:?}");
+            assert!(
+                size.windows(2).all(|w| w[0] == w[1]),
+                "{pattern:?} became {dir:?}"
+            );
         }
     }
 }

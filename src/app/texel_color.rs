@@ -33,9 +33,14 @@ impl TexelColor {
             self.known = answer.ok().map(|color| (*wanted, color));
             self.coming = None;
         }
-        let known = self.known.filter(|(known, _)| *known == key).map(|(_, color)| color);
+        let known = self
+            .known
+            .filter(|(known, _)| *known == key)
+            .map(|(_, color)| color);
         if known.is_none() && self.coming.is_none() {
-            let read = renderer.begin_read_texel(key.mapping, key.chart, key.texel).ok();
+            let read = renderer
+                .begin_read_texel(key.mapping, key.chart, key.texel)
+                .ok();
             self.coming = read.map(|read| (key, read));
         }
         known

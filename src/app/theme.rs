@@ -29,11 +29,21 @@ pub const LIT: Color32 = Color32::from_rgb(0, 92, 140);
 pub fn install(ctx: &egui::Context) {
     ctx.set_theme(egui::Theme::Dark);
     ctx.all_styles_mut(|style| {
-        style.text_styles.insert(TextStyle::Body, FontId::proportional(13.5));
-        style.text_styles.insert(TextStyle::Button, FontId::proportional(13.5));
-        style.text_styles.insert(TextStyle::Small, FontId::proportional(11.0));
-        style.text_styles.insert(TextStyle::Heading, FontId::proportional(16.0));
-        style.text_styles.insert(TextStyle::Monospace, FontId::monospace(12.5));
+        style
+            .text_styles
+            .insert(TextStyle::Body, FontId::proportional(13.5));
+        style
+            .text_styles
+            .insert(TextStyle::Button, FontId::proportional(13.5));
+        style
+            .text_styles
+            .insert(TextStyle::Small, FontId::proportional(11.0));
+        style
+            .text_styles
+            .insert(TextStyle::Heading, FontId::proportional(16.0));
+        style
+            .text_styles
+            .insert(TextStyle::Monospace, FontId::monospace(12.5));
         style.spacing.item_spacing = egui::vec2(6.0, 4.0);
         // Nothing fades: a fade would draw frames in a still window.
         style.animation_time = 0.0;

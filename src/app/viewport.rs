@@ -25,9 +25,7 @@ pub fn viewport_ui(ui: &mut Ui, model: &mut Model<'_>) {
         return;
     }
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
-    response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::Role::Image, true, "The viewport")
-    });
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "The viewport"));
     model.view_ui(ui, ViewKey::Viewport, rect);
     let on_divider = divider_ui(ui, model, rect);
     if !on_divider {
@@ -45,7 +43,10 @@ fn pointer(ui: &Ui, model: &mut Model<'_>, rect: Rect, response: &Response) {
     if response.dragged_by(PointerButton::Primary) {
         let drag = response.drag_delta() * ORBIT_RAD_PER_POINT;
         if drag != egui::Vec2::ZERO {
-            model.push(Action::Orbit { dx_rad: drag.x, dy_rad: drag.y });
+            model.push(Action::Orbit {
+                dx_rad: drag.x,
+                dy_rad: drag.y,
+            });
         }
         return;
     }
@@ -55,15 +56,23 @@ fn pointer(ui: &Ui, model: &mut Model<'_>, rect: Rect, response: &Response) {
             model.push(Action::Zoom((scroll * 0.004).exp()));
         }
     }
-    let Some(pos) = response.hover_pos().or(response.interact_pointer_pos()) else { return };
+    let Some(pos) = response.hover_pos().or(response.interact_pointer_pos()) else {
+        return;
+    };
     let moved = ui.input(|i| i.pointer.delta() != egui::Vec2::ZERO || i.pointer.any_pressed());
     let dragged = response.dragged_by(PointerButton::Secondary);
     let clicked = response.clicked();
     let wanted = clicked || dragged || (model.state.probe_follows && moved);
     if wanted && rect.contains(pos) {
-        let uv = [(pos.x - rect.min.x) / rect.width(), (pos.y - rect.min.y) / rect.height()];
+        let uv = [
+            (pos.x - rect.min.x) / rect.width(),
+            (pos.y - rect.min.y) / rect.height(),
+        ];
         let dir = looked_up(model, uv, aspect(rect));
-        model.push(Action::SetProbe { dir: dir.to_array(), eye_ray: Some(uv) });
+        model.push(Action::SetProbe {
+            dir: dir.to_array(),
+            eye_ray: Some(uv),
+        });
     }
     if clicked && model.state.probe_follows {
         model.push(Action::FollowPointer(false));
@@ -81,7 +90,9 @@ fn looked_up(model: &Model<'_>, uv: [f32; 2], aspect: f32) -> Vec3 {
 
 /// The divider between the two mappings; true while the pointer is on it.
 fn divider_ui(ui: &mut Ui, model: &mut Model<'_>, rect: Rect) -> bool {
-    let Some(compare) = model.state.compare else { return false };
+    let Some(compare) = model.state.compare else {
+        return false;
+    };
     let x = rect.min.x + model.state.divider * rect.width();
     let grip = Rect::from_min_max(
         pos2(x - DIVIDER_GRIP, rect.min.y),
@@ -100,12 +111,21 @@ fn divider_ui(ui: &mut Ui, model: &mut Model<'_>, rect: Rect) -> bool {
     let painter = ui.painter_at(rect);
     let line = vec![pos2(x, rect.min.y), pos2(x, rect.max.y)];
     edged_line(&painter, line, 1.5, Color32::WHITE);
-    let sides = [(model.state.mapping, Align2::RIGHT_TOP, -1.0), (compare, Align2::LEFT_TOP, 1.0)];
+    let sides = [
+        (model.state.mapping, Align2::RIGHT_TOP, -1.0),
+        (compare, Align2::LEFT_TOP, 1.0),
+    ];
     for (mapping, anchor, side) in sides.into_iter().filter(|_| model.state.overlays.names) {
         let [w, h] = model.map_size(mapping);
         let charts = mapping.info().chart_count();
         let text = format!("{}  {charts} × {w}×{h}", mapping.info().name);
-        edged_text(&painter, pos2(x + 8.0 * side, rect.min.y + 6.0), anchor, &text, Color32::WHITE);
+        edged_text(
+            &painter,
+            pos2(x + 8.0 * side, rect.min.y + 6.0),
+            anchor,
+            &text,
+            Color32::WHITE,
+        );
     }
     response.hovered() || response.dragged()
 }
@@ -130,7 +150,13 @@ fn paint_marks(ui: &Ui, model: &Model<'_>, rect: Rect) {
     }
     if model.surroundings.is_none() {
         let text = "Loading the environment …";
-        edged_text(&painter, rect.center(), Align2::CENTER_CENTER, text, Color32::WHITE);
+        edged_text(
+            &painter,
+            rect.center(),
+            Align2::CENTER_CENTER,
+            text,
+            Color32::WHITE,
+        );
     }
 }
 
@@ -139,7 +165,10 @@ fn paint_axes(painter: &egui::Painter, camera: Camera, rect: Rect) {
     const LENGTH: f32 = 30.0;
     let origin = rect.left_bottom() + vec2(52.0, -52.0);
     let frame = camera.ray_frame(1.0);
-    let (right, up) = (frame.right.normalize_or_zero(), frame.up.normalize_or_zero());
+    let (right, up) = (
+        frame.right.normalize_or_zero(),
+        frame.up.normalize_or_zero(),
+    );
     let mut axes: Vec<(f32, Pos2, usize)> = [Vec3::X, Vec3::Y, Vec3::Z]
         .iter()
         .enumerate()
@@ -158,10 +187,14 @@ fn paint_axes(painter: &egui::Painter, camera: Camera, rect: Rect) {
 /// The incident, normal and reflected vectors where the pointer met the object.
 fn paint_vectors(painter: &egui::Painter, model: &Model<'_>, rect: Rect) {
     const LENGTH: f32 = 0.6;
-    let Some([u, v]) = model.state.eye_ray else { return };
+    let Some([u, v]) = model.state.eye_ray else {
+        return;
+    };
     let camera = model.state.camera;
     let ray = camera.ray((u, v), aspect(rect));
-    let Some(Hit { point, normal, .. }) = model.target.cast(ray) else { return };
+    let Some(Hit { point, normal, .. }) = model.target.cast(ray) else {
+        return;
+    };
     let screen = |point: Vec3| {
         let (u, v) = camera.project(point, aspect(rect))?;
         Some(rect.min + vec2(u * rect.width(), v * rect.height()))
@@ -172,8 +205,16 @@ fn paint_vectors(painter: &egui::Painter, model: &Model<'_>, rect: Rect) {
     let reflected = reflect(ray.dir, normal);
     let arrows = [
         (screen(point - ray.dir * LENGTH), at, "incident"),
-        (Some(at), screen(point + normal * LENGTH).unwrap_or(at), "normal"),
-        (Some(at), screen(point + reflected * LENGTH).unwrap_or(at), "reflected"),
+        (
+            Some(at),
+            screen(point + normal * LENGTH).unwrap_or(at),
+            "normal",
+        ),
+        (
+            Some(at),
+            screen(point + reflected * LENGTH).unwrap_or(at),
+            "reflected",
+        ),
     ];
     for (i, (from, to, name)) in arrows.into_iter().enumerate() {
         let Some(from) = from else { continue };

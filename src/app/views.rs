@@ -44,7 +44,11 @@ impl Views {
             usage: wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         });
-        Self { painter, blank: blank.create_view(&Default::default()), known: HashMap::new() }
+        Self {
+            painter,
+            blank: blank.create_view(&Default::default()),
+            known: HashMap::new(),
+        }
     }
 
     /// egui's name for a view; black until something is drawn.
@@ -62,13 +66,10 @@ impl Views {
     }
 
     /// Puts the renderer's texture behind a name, if another one stood there. `identity` tells textures apart.
-    pub fn show(
-        &mut self,
-        gpu: &Gpu,
-        key: ViewKey,
-        texture: Option<(&wgpu::TextureView, u64)>,
-    ) {
-        let Some(known) = self.known.get_mut(&key) else { return };
+    pub fn show(&mut self, gpu: &Gpu, key: ViewKey, texture: Option<(&wgpu::TextureView, u64)>) {
+        let Some(known) = self.known.get_mut(&key) else {
+            return;
+        };
         let identity = texture.map(|(_, identity)| identity);
         if known.shown == identity {
             return;

@@ -15,7 +15,9 @@ pub enum RunError {
     #[error("{0}")]
     Scene(String),
     /// No window or no device.
-    #[error("no window could be opened ({0}); a display and a Vulkan or OpenGL driver are needed, and `sixfold render OUT.png` draws without a display")]
+    #[error(
+        "no window could be opened ({0}); a display and a Vulkan or OpenGL driver are needed, and `sixfold render OUT.png` draws without a display"
+    )]
     Window(String),
     /// The device was lost.
     #[error("the graphics device was lost; {0}; start Sixfold again with that file")]
@@ -36,9 +38,7 @@ pub fn run(file: Option<&Path>) -> Result<(), RunError> {
     let created = eframe::run_native(
         "Sixfold",
         options(),
-        Box::new(move |creation| {
-            Ok(Box::new(Window::new(creation, state, report)?))
-        }),
+        Box::new(move |creation| Ok(Box::new(Window::new(creation, state, report)?))),
     );
     created.map_err(|error| RunError::Window(one_line(&error.to_string())))?;
     match lost.lock().ok().and_then(|mut why| why.take()) {
@@ -90,8 +90,10 @@ impl Window {
         lost: Lost,
     ) -> Result<Self, String> {
         theme::install(&creation.egui_ctx);
-        let device =
-            creation.wgpu_render_state.as_ref().ok_or("the window has no graphics device")?;
+        let device = creation
+            .wgpu_render_state
+            .as_ref()
+            .ok_or("the window has no graphics device")?;
         let gpu = Gpu::from_parts(
             device.device.clone(),
             device.queue.clone(),

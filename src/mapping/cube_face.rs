@@ -188,5 +188,8 @@ pub fn meeting_faces<R: Real>(dir: Vec3<R>) -> Vec<u32> {
     let negative_z = signed(z, 4).filter(|f| *f == 5);
     let positive_y = signed(y, 2).filter(|f| *f == 2);
     let positive_z = signed(z, 4).filter(|f| *f == 4);
-    [negative_y, negative_z, signed(x, 0), positive_z, positive_y].into_iter().flatten().collect()
+    [negative_y, negative_z, signed(x, 0), positive_z, positive_y]
+        .into_iter()
+        .flatten()
+        .collect()
 }

@@ -6,7 +6,7 @@
 //! - view: the eye at the origin, +x to the right of the screen, +y up, +z away from the viewer;
 //! - clip: x and y in -w..w (y up), z in 0..w, 0 at the near plane; the conventional depth, not reversed: clear the
 //!   depth buffer to 1 and keep what is less;
-//! - `uv`: [0,1]^2 over the screen, (0, 0) the upper left corner, v down.
+//! - `uv`: `[0, 1]^2` over the screen, (0, 0) the upper left corner, v down.
 //!
 //! ```
 //! use glam::Vec3;
@@ -227,7 +227,7 @@ impl Camera {
         }
     }
 
-    /// The ray from the eye through `uv` in [0,1]^2, v down; points beyond the screen are as good.
+    /// The ray from the eye through `uv` in `[0, 1]^2`, v down; points beyond the screen are as good.
     ///
     /// No matrix is inverted: the direction is a sum of the screen's own vectors, so that its error stays at the
     /// rounding of a unit vector, also for a narrow field of view.
@@ -242,7 +242,7 @@ impl Camera {
     }
 
     /// Where `point` of the world is seen; `None` when it is not in front of the eye. The result may lie outside
-    /// [0,1]^2: beside the screen.
+    /// `[0, 1]^2`: beside the screen.
     #[must_use]
     pub fn project(&self, point: Vec3, aspect: f32) -> Option<(f32, f32)> {
         let Axes { right, up, forward } = self.axes();

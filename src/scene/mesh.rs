@@ -101,15 +101,17 @@ pub(super) mod tests {
 
     /// Laws of every mesh. Returns the smallest cosine between a triangle's normal and its vertices' normals.
     pub(in super::super) fn check(mesh: &Mesh) -> Result<f32, String> {
-        if mesh.positions.len() != mesh.normals.len() || mesh.indices.len() % 3 != 0 {
+        if mesh.positions.len() != mesh.normals.len() || !mesh.indices.len().is_multiple_of(3) {
             return Err("lengths".into());
         }
         for (position, normal) in mesh.positions.iter().zip(&mesh.normals) {
             let (position, normal) = (Vec3::from(*position), Vec3::from(*normal));
-            if !(position.length() <= 1.0 + 2.0 * f32::EPSILON) {
+            let inside = position.length() <= 1.0 + 2.0 * f32::EPSILON;
+            let unit = (normal.length() - 1.0).abs() < 4.0 * f32::EPSILON;
+            if !inside {
                 return Err(format!("outside the unit ball: {position}"));
             }
-            if !((normal.length() - 1.0).abs() < 4.0 * f32::EPSILON) {
+            if !unit {
                 return Err(format!("normal {normal} at {position} is not unit"));
             }
         }
