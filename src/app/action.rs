@@ -7,7 +7,7 @@ use crate::math::Vec3;
 use crate::scene::{Camera, Object};
 
 use super::probe;
-use super::state::{AppState, InspectorState, Overlays, PanelState, unit};
+use super::state::{AppState, EyeRay, InspectorState, Overlays, PanelState, unit};
 
 /// One change of the state.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,12 +41,12 @@ pub enum Action {
     SetTexelBudget(u32),
     /// Switch overlays.
     SetOverlays(Overlays),
-    /// Study another direction; `eye_ray` is the place in the viewport that it was found through.
+    /// Study another direction; `eye_ray` is the ray from the eye that found it.
     SetProbe {
         /// The direction; any length.
         dir: [f32; 3],
-        /// Place in the viewport, in [0, 1]^2.
-        eye_ray: Option<[f32; 2]>,
+        /// From the eye, when the viewport found it.
+        eye_ray: Option<EyeRay>,
     },
     /// Move the probe by texels of the selected mapping.
     StepProbe {
@@ -108,7 +108,11 @@ pub fn apply(state: &mut AppState, action: Action) {
             state.divider = divider.clamp(0.0, 1.0);
         }
         Action::SetDivider(_) => {}
-        Action::SetObject(object) => state.object = object,
+        Action::SetObject(object) => {
+            state.object = object;
+            // The ray was reflected by the other object.
+            state.eye_ray = None;
+        }
         Action::Orbit { dx_rad, dy_rad } => state.camera.orbit(dx_rad, dy_rad),
         Action::Zoom(factor) => state.camera.zoom(factor),
         Action::ResetCamera => state.camera = AppState::default().camera,

@@ -39,20 +39,25 @@ pub fn arrow(painter: &Painter, from: Pos2, to: Pos2, color: Color32, name: &str
         ];
         edged_line(painter, barbs.to_vec(), 2.0, color);
     }
-    if !name.is_empty() {
-        let away = if along.length() > 0.0 {
-            along.normalized()
-        } else {
-            Vec2::X
-        };
-        edged_text(
-            painter,
-            to + away * 10.0,
-            Align2::CENTER_CENTER,
-            name,
-            color,
-        );
-    }
+    edged_text(
+        painter,
+        beyond(to, along, name),
+        Align2::CENTER_CENTER,
+        name,
+        color,
+    );
+}
+
+/// Where text has its middle so that it stands clear of the end of a line that runs `along`.
+pub fn beyond(end: Pos2, along: Vec2, text: &str) -> Pos2 {
+    // A letter of the marks' font is about 7 points wide.
+    let half_width = 3.5 * text.len() as f32;
+    let away = if along.length() > 0.0 {
+        along.normalized()
+    } else {
+        Vec2::X
+    };
+    end + away * (9.0 + half_width * away.x.abs())
 }
 
 /// Text with a dark edge.

@@ -1,12 +1,16 @@
 //! What the window shows, as plain data: saved scenes, undo and exports are copies of it.
 
+use std::sync::LazyLock;
+
 use serde::{Deserialize, Serialize};
 
 use crate::gpu::ToneCurve;
 use crate::imaging::Environment;
 use crate::mapping::MappingId;
 use crate::math::Vec3;
-use crate::scene::{Camera, Object};
+use crate::scene::{Camera, Object, Ray, Target};
+
+use super::viewport::looked_up;
 
 /// Version of the saved form. A scene of a later version is refused; earlier ones are migrated by [`AppState::from_json`].
 pub const SCHEMA: u32 = 1;
@@ -41,14 +45,43 @@ pub struct AppState {
     pub probe: [f32; 3],
     /// The probe follows the pointer.
     pub probe_follows: bool,
-    /// Place in the viewport, in [0, 1]^2 with v down, whose ray made the probe; `None` when a panel did.
-    pub eye_ray: Option<[f32; 2]>,
+    /// The ray from the eye that found the probe, kept in the world so that one can walk around it; `None` when a panel
+    /// made the probe.
+    pub eye_ray: Option<EyeRay>,
     /// One entry for each mapping, in the registry's order.
     pub panels: Vec<PanelState>,
     /// How the panels are arranged, in the tiling library's own form.
     pub arrangement: Option<serde_json::Value>,
     /// What the inspector shows.
     pub inspector: InspectorState,
+}
+
+/// A ray from the eye, as it was when the probe was found through it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EyeRay {
+    /// Where the eye was, in world units.
+    pub origin: [f32; 3],
+    /// Where it looked, unit length.
+    pub dir: [f32; 3],
+}
+
+impl EyeRay {
+    /// The ray as the picking code takes it.
+    pub fn ray(self) -> Ray {
+        Ray {
+            origin: self.origin.into(),
+            dir: self.dir.into(),
+        }
+    }
+}
+
+impl From<Ray> for EyeRay {
+    fn from(ray: Ray) -> Self {
+        Self {
+            origin: ray.origin.to_array(),
+            dir: ray.dir.to_array(),
+        }
+    }
 }
 
 /// What is drawn over the pictures.
@@ -170,6 +203,19 @@ pub enum Precision {
     Both,
 }
 
+/// The first probe and its ray: the teapot's flank, looked at from a little to the side of the first camera, so that all
+/// three vectors are seen.
+static FIRST_PROBE: LazyLock<([f32; 3], EyeRay)> = LazyLock::new(|| {
+    let eye = Camera {
+        yaw_rad: -0.1,
+        pitch_rad: 0.25,
+        ..Camera::default()
+    };
+    let ray = eye.ray((0.5, 0.52), 1.0);
+    let (dir, _) = looked_up(&Target::new(Object::Teapot.mesh()), ray);
+    (unit(dir.to_array()), ray.into())
+});
+
 impl Default for AppState {
     fn default() -> Self {
         // The seeds' six, which come first in the registry, are open.
@@ -194,9 +240,9 @@ impl Default for AppState {
             tone: ToneCurve::default(),
             texel_budget: 6 * 512 * 512,
             overlays: Overlays::default(),
-            probe: unit([0.45, 0.75, -0.35]),
+            probe: FIRST_PROBE.0,
             probe_follows: true,
-            eye_ray: None,
+            eye_ray: Some(FIRST_PROBE.1),
             panels,
             arrangement: None,
             inspector: InspectorState::default(),
@@ -251,9 +297,10 @@ impl AppState {
             .texel_budget
             .clamp(TEXEL_BUDGET_RANGE.0, TEXEL_BUDGET_RANGE.1);
         self.probe = unit(self.probe);
-        self.eye_ray = self
-            .eye_ray
-            .filter(|uv| uv.iter().all(|c| (0.0..=1.0).contains(c)));
+        self.eye_ray = self.eye_ray.filter(|eye| {
+            let ray = eye.ray();
+            ray.origin.is_finite() && ray.dir.is_normalized()
+        });
         // One panel for each mapping, whatever the file holds.
         let saved = std::mem::take(&mut self.panels);
         self.panels = MappingId::ALL

@@ -4,14 +4,14 @@ use egui::{Align2, Color32, PointerButton, Pos2, Rect, Response, Sense, Ui, pos2
 use glam::Vec3;
 
 use super::action::Action;
-use super::marks::{arrow, edged_line, edged_text};
+use super::marks::{arrow, beyond, edged_line, edged_text};
 use super::model::Model;
 use super::theme;
 use super::views::ViewKey;
 use crate::gpu::GREAT_CIRCLE_COLORS;
 use crate::mapping::cube_face::GREAT_CIRCLES;
 use crate::optics::reflect;
-use crate::scene::{Camera, Hit};
+use crate::scene::{Camera, Hit, Ray, Target};
 
 /// Radians that the camera turns for a drag over one point.
 const ORBIT_RAD_PER_POINT: f32 = 0.008;
@@ -64,14 +64,12 @@ fn pointer(ui: &Ui, model: &mut Model<'_>, rect: Rect, response: &Response) {
     let clicked = response.clicked();
     let wanted = clicked || dragged || (model.state.probe_follows && moved);
     if wanted && rect.contains(pos) {
-        let uv = [
-            (pos.x - rect.min.x) / rect.width(),
-            (pos.y - rect.min.y) / rect.height(),
-        ];
-        let dir = looked_up(model, uv, aspect(rect));
+        let place = (pos - rect.min) / rect.size();
+        let ray = model.state.camera.ray((place.x, place.y), aspect(rect));
+        let (dir, _) = looked_up(model.target, ray);
         model.push(Action::SetProbe {
             dir: dir.to_array(),
-            eye_ray: Some(uv),
+            eye_ray: Some(ray.into()),
         });
     }
     if clicked && model.state.probe_follows {
@@ -79,13 +77,11 @@ fn pointer(ui: &Ui, model: &mut Model<'_>, rect: Rect, response: &Response) {
     }
 }
 
-/// The direction that the map is asked for at a place of the viewport: mirrored where the object is, else straight on.
-fn looked_up(model: &Model<'_>, uv: [f32; 2], aspect: f32) -> Vec3 {
-    let ray = model.state.camera.ray((uv[0], uv[1]), aspect);
-    match model.target.cast(ray) {
-        Some(hit) => reflect(ray.dir, hit.normal),
-        None => ray.dir,
-    }
+/// The direction in which the map is asked along a ray from the eye: mirrored where the object is hit, else straight on.
+pub fn looked_up(target: &Target, ray: Ray) -> (Vec3, Option<Hit>) {
+    let hit = target.cast(ray);
+    let dir = hit.map_or(ray.dir, |hit| reflect(ray.dir, hit.normal));
+    (dir, hit)
 }
 
 /// The divider between the two mappings; true while the pointer is on it.
@@ -184,47 +180,55 @@ fn paint_axes(painter: &egui::Painter, camera: Camera, rect: Rect) {
     }
 }
 
-/// The incident, normal and reflected vectors where the pointer met the object.
+/// The incident, normal and reflected vectors where the ray that found the probe met the object.
 fn paint_vectors(painter: &egui::Painter, model: &Model<'_>, rect: Rect) {
     const LENGTH: f32 = 0.6;
-    let Some([u, v]) = model.state.eye_ray else {
+    let Some(eye) = model.state.eye_ray else {
         return;
     };
-    let camera = model.state.camera;
-    let ray = camera.ray((u, v), aspect(rect));
-    let Some(Hit { point, normal, .. }) = model.target.cast(ray) else {
+    let ray = eye.ray();
+    let (reflected, Some(Hit { point, normal, .. })) = looked_up(model.target, ray) else {
         return;
     };
     let screen = |point: Vec3| {
-        let (u, v) = camera.project(point, aspect(rect))?;
+        let (u, v) = model.state.camera.project(point, aspect(rect))?;
         Some(rect.min + vec2(u * rect.width(), v * rect.height()))
     };
     let Some(at) = screen(point) else { return };
-    // Seen along the eye's own ray the incident vector is a point; it is drawn from where the eye ray enters the picture's
-    // near half, a little to the side of it.
-    let reflected = reflect(ray.dir, normal);
     let arrows = [
-        (screen(point - ray.dir * LENGTH), at, "incident"),
-        (
-            Some(at),
-            screen(point + normal * LENGTH).unwrap_or(at),
-            "normal",
-        ),
-        (
-            Some(at),
-            screen(point + reflected * LENGTH).unwrap_or(at),
-            "reflected",
-        ),
+        (screen(point - ray.dir * LENGTH), Some(at), "incident"),
+        (Some(at), screen(point + normal * LENGTH), "normal"),
+        (Some(at), screen(point + reflected * LENGTH), "reflected"),
     ];
-    for (i, (from, to, name)) in arrows.into_iter().enumerate() {
-        let Some(from) = from else { continue };
-        if i == 0 {
-            painter.circle_filled(at, 4.0, theme::VECTORS[0]);
-            let side = at + vec2(-10.0, 12.0);
-            edged_text(painter, side, Align2::RIGHT_CENTER, name, theme::VECTORS[0]);
-            edged_line(painter, vec![from, to], 2.0, theme::VECTORS[0]);
+    for ((from, to, name), color) in arrows.into_iter().zip(theme::VECTORS) {
+        let (Some(from), Some(to)) = (from, to) else {
+            continue;
+        };
+        // Seen along itself, as right after pointing, the incident vector is a point: turn the camera to see it.
+        if from.distance(to) < 8.0 {
+            painter.circle_filled(at, 4.0, color);
+            edged_text(
+                painter,
+                at + vec2(-10.0, 12.0),
+                Align2::RIGHT_CENTER,
+                name,
+                color,
+            );
         } else {
-            arrow(painter, from, to, theme::VECTORS[i], name);
+            // The incident vector's free end is its beginning, so its name stands there.
+            let (end, along) = if name == "incident" {
+                (from, from - to)
+            } else {
+                (to, to - from)
+            };
+            arrow(painter, from, to, color, "");
+            edged_text(
+                painter,
+                beyond(end, along, name),
+                Align2::CENTER_CENTER,
+                name,
+                color,
+            );
         }
     }
 }
