@@ -865,9 +865,9 @@ fn every_pass_is_valid_and_blocks_agree() {
     let mut modules = vec![module(kit::HALVE)];
     for &id in MappingId::ALL {
         modules.push(module(&kit::bake_source(id)));
+        modules.push(module(&kit::panel_source(id)));
         for variant in [kit::Variant::default(), all] {
-            modules.push(module(&kit::show_source(id, kit::VIEWPORT, variant)));
-            modules.push(module(&kit::show_source(id, kit::PANEL, variant)));
+            modules.push(module(&kit::viewport_source(id, variant)));
         }
     }
     for (name, size, members) in uniforms::blocks() {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::frame::{Frame, Look, ViewportFrame};
-use super::kit::{Kit, VIEW_FORMAT, VIEWPORT, Variant, show_source};
+use super::kit::{Kit, VIEW_FORMAT, Variant, viewport_source};
 use super::map::Map;
 use super::uniforms::{View, vec4};
 use crate::mapping::MappingId;
@@ -321,7 +321,7 @@ fn keys(frame: &ViewportFrame, maps: &BTreeMap<MappingId, Map>, samples: u32) ->
 }
 
 fn pipeline(kit: &Kit, (part, id, variant, samples): Key) -> wgpu::RenderPipeline {
-    let module = kit.module("viewport", &show_source(id, VIEWPORT, variant));
+    let module = kit.module("viewport", &viewport_source(id, variant));
     let layout = kit.pipeline_layout(&kit.lookup);
     let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
     let vertex_layout = [Some(wgpu::VertexBufferLayout {
