@@ -7,6 +7,9 @@ struct Panel {
     background: vec4f,
     // Width and height of the target in pixels, the tone curve.
     screen: vec4f,
+    // Above 0 when drawn: great circles, tint of the face, lines of equal u and v. No constants as in the viewport: a panel
+    // is drawn seldom, and a dozen of them would have to be compiled at once.
+    overlays: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> panel: Panel;
@@ -64,13 +67,13 @@ fn panel_fragment(@builtin(position) at: vec4f) -> @location(0) vec4f {
     var color = display_from_light(light, panel.background.w, u32(panel.screen.z));
 
     let dir = map_inverse(ChartPoint(chart, uv.x, uv.y));
-    if SHOW_FACE_TINT {
+    if panel.overlays.y > 0.0 {
         color = paint_face_tint(color, dir);
     }
-    if SHOW_GRID {
+    if panel.overlays.z > 0.0 {
         color = paint_grid(color, uv.x, uv.y, abs(pixel));
     }
-    if SHOW_GREAT_CIRCLES {
+    if panel.overlays.x > 0.0 {
         let right = map_inverse(ChartPoint(chart, uv.x + pixel.x, uv.y)) - dir;
         let down = map_inverse(ChartPoint(chart, uv.x, uv.y + pixel.y)) - dir;
         color = paint_great_circles(color, dir, right, down);

@@ -9,7 +9,7 @@ pub const VIEW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 pub const LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
 /// The viewport's pass on one mapping.
-pub const VIEWPORT: &str = concat!(
+const VIEWPORT: &str = concat!(
     include_str!("../../shaders/screen.wgsl"),
     include_str!("../../shaders/footprint.wgsl"),
     include_str!("../../shaders/color.wgsl"),
@@ -18,7 +18,7 @@ pub const VIEWPORT: &str = concat!(
     include_str!("../../shaders/viewport.wgsl"),
 );
 /// A panel's pass on one mapping.
-pub const PANEL: &str = concat!(
+const PANEL: &str = concat!(
     include_str!("../../shaders/screen.wgsl"),
     include_str!("../../shaders/footprint.wgsl"),
     include_str!("../../shaders/color.wgsl"),
@@ -27,7 +27,7 @@ pub const PANEL: &str = concat!(
     include_str!("../../shaders/panel.wgsl"),
 );
 /// The pass that fills a mapping's map.
-pub const BAKE: &str = concat!(
+const BAKE: &str = concat!(
     include_str!("../../shaders/screen.wgsl"),
     include_str!("../../shaders/footprint.wgsl"),
     include_str!("../../shaders/bake.wgsl"),
@@ -44,8 +44,8 @@ pub fn bake_source(id: MappingId) -> String {
     shader::for_mapping(id, BAKE)
 }
 
-/// What a pass that shows a mapping does. Constants of the shader, so that nothing is computed that is not seen, also on
-/// adapters that run both sides of a branch.
+/// What the viewport does. Constants of its shader, so that nothing is computed that is not seen, also on adapters that run
+/// both sides of a branch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Variant {
     /// Paints the great circles.
@@ -73,21 +73,29 @@ impl Variant {
     }
 }
 
-/// The whole text of a pass that shows a mapping: [`VIEWPORT`] or [`PANEL`].
+/// The whole text of the viewport's pass on a mapping.
 #[must_use]
-pub fn show_source(id: MappingId, pass: &str, variant: Variant) -> String {
-    let covers_sphere = !matches!(id.info().coverage, Coverage::Hemisphere(_));
+pub fn viewport_source(id: MappingId, variant: Variant) -> String {
     let switches = [
-        ("MAP_COVERS_SPHERE", covers_sphere),
         ("SHOW_GREAT_CIRCLES", variant.great_circles),
         ("SHOW_FACE_TINT", variant.face_tint),
         ("SHOW_GRID", variant.grid),
         ("SHOW_PROBE", variant.probe),
         ("NEEDS_LEVEL", variant.level),
     ];
-    let mut text: String = switches
-        .map(|(name, on)| format!("const {name} = {on};\n"))
-        .concat();
+    let switches = switches.map(|(name, on)| format!("const {name} = {on};\n"));
+    show_source(id, &(switches.concat() + VIEWPORT))
+}
+
+/// The whole text of a panel's pass on a mapping.
+#[must_use]
+pub fn panel_source(id: MappingId) -> String {
+    show_source(id, PANEL)
+}
+
+fn show_source(id: MappingId, pass: &str) -> String {
+    let covers_sphere = !matches!(id.info().coverage, Coverage::Hemisphere(_));
+    let mut text = format!("const MAP_COVERS_SPHERE = {covers_sphere};\n");
     text += &tone::wgsl_constants();
     text += &overlay::wgsl_constants();
     text += &super::map::wgsl_constants();

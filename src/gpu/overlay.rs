@@ -42,6 +42,19 @@ pub struct Overlays {
     pub axes: bool,
 }
 
+impl Overlays {
+    /// As the panels' shader reads it: great circles, face tint, grid.
+    pub(super) fn switches(self) -> [f32; 4] {
+        let on = |switch: bool| f32::from(u8::from(switch));
+        [
+            on(self.great_circles),
+            on(self.face_tint),
+            on(self.grid),
+            0.0,
+        ]
+    }
+}
+
 /// What `shaders/overlay.wgsl` takes from here. Written out instead of arrays: an index into an array of constants makes
 /// some compilers copy the array for each pixel.
 pub(super) fn wgsl_constants() -> String {

@@ -1,9 +1,8 @@
 //! A panel: one mapping's charts, unfolded into one picture.
 
 use super::frame::{Look, PanelFrame};
-use super::kit::{Kit, PANEL, VIEW_FORMAT, Variant, begin_pass, show_source};
+use super::kit::{Kit, VIEW_FORMAT, begin_pass, panel_source};
 use super::uniforms;
-use crate::mapping::MappingId;
 
 /// Everything of one panel on the device.
 #[derive(Debug)]
@@ -13,23 +12,23 @@ pub(super) struct Panel {
     /// Changes with every new texture.
     pub id: u64,
     block: wgpu::Buffer,
-    mapping: MappingId,
-    variant: Variant,
     pipeline: wgpu::RenderPipeline,
 }
 
 impl Panel {
     pub fn new(kit: &Kit, frame: &PanelFrame, id: u64) -> Self {
         let texture = kit.view_texture("panel", frame.size_px);
-        let variant = Variant::new(frame.overlays);
         Self {
             view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
             texture,
             id,
             block: kit.block_buffer("panel", size_of::<uniforms::Panel>()),
-            mapping: frame.mapping,
-            variant,
-            pipeline: pipeline(kit, frame.mapping, variant),
+            pipeline: kit.screen_pipeline(
+                &kit.lookup,
+                &panel_source(frame.mapping),
+                "panel_fragment",
+                VIEW_FORMAT,
+            ),
         }
     }
 
@@ -41,11 +40,6 @@ impl Panel {
                 .texture
                 .create_view(&wgpu::TextureViewDescriptor::default());
             self.id = id;
-        }
-        let variant = Variant::new(frame.overlays);
-        if self.variant != variant {
-            self.variant = variant;
-            self.pipeline = pipeline(kit, self.mapping, variant);
         }
     }
 
@@ -65,6 +59,7 @@ impl Panel {
                 look.exposure,
             ),
             screen: [width, height, look.tone.index() as f32, 0.0],
+            overlays: frame.overlays.switches(),
         };
         kit.gpu
             .queue
@@ -74,9 +69,4 @@ impl Panel {
         pass.set_bind_group(0, &kit.lookup_group(&self.block, map), &[]);
         pass.draw(0..3, 0..1);
     }
-}
-
-fn pipeline(kit: &Kit, mapping: MappingId, variant: Variant) -> wgpu::RenderPipeline {
-    let source = show_source(mapping, PANEL, variant);
-    kit.screen_pipeline(&kit.lookup, &source, "panel_fragment", VIEW_FORMAT)
 }

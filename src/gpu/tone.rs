@@ -11,7 +11,7 @@ pub enum ToneCurve {
     /// x (1 + x/w^2)/(1 + x), w = 8: never clips below w. Reinhard et al., Photographic tone reproduction for digital
     /// images (2002), equation 4, for each channel.
     Reinhard,
-    /// x^a/(b x^a + c): a power for contrast and a shoulder, after Lottes, Advanced techniques and optimization of HDR
+    /// x^a/(b x^a + c) with a = 5/4: a power for contrast and a shoulder, after Lottes, Advanced techniques and optimization of HDR
     /// color pipelines (GDC 2016). b and c follow from two points: middle grey stays, 16 becomes 1.
     #[default]
     Filmic,
@@ -19,18 +19,21 @@ pub enum ToneCurve {
 
 /// The light that [`ToneCurve::Reinhard`] shows as 1: three stops above a white sheet.
 const REINHARD_WHITE: f32 = 8.0;
-/// Exponent of [`ToneCurve::Filmic`]; 1 would be Reinhard's slope, film has 1.2 to 1.6.
-const FILMIC_CONTRAST: f32 = 1.25;
 /// The light that [`ToneCurve::Filmic`] shows as 1: four stops above a white sheet.
 const FILMIC_WHITE: f32 = 16.0;
 /// The light that [`ToneCurve::Filmic`] leaves as it is.
 const FILMIC_GREY: f32 = 0.18;
 
+/// x^(5/4): film has exponents from 1.2 to 1.6, and this one takes two square roots.
+fn filmic_power(x: f32) -> f32 {
+    x * x.sqrt().sqrt()
+}
+
 /// b and c of [`ToneCurve::Filmic`]. With g = grey^a and w = white^a the two points say b g + c = g/grey and
 /// b w + c = w; their difference gives b.
 fn filmic_shoulder() -> (f32, f32) {
-    let grey = FILMIC_GREY.powf(FILMIC_CONTRAST);
-    let white = FILMIC_WHITE.powf(FILMIC_CONTRAST);
+    let grey = filmic_power(FILMIC_GREY);
+    let white = filmic_power(FILMIC_WHITE);
     let scale = (white - grey / FILMIC_GREY) / (white - grey);
     (scale, white * (1.0 - scale))
 }
@@ -58,7 +61,7 @@ impl ToneCurve {
             Self::Reinhard => x * (1.0 + x / (REINHARD_WHITE * REINHARD_WHITE)) / (1.0 + x),
             Self::Filmic => {
                 let (scale, offset) = filmic_shoulder();
-                let power = x.min(FILMIC_WHITE).powf(FILMIC_CONTRAST);
+                let power = filmic_power(x.min(FILMIC_WHITE));
                 power / (power * scale + offset)
             }
         }
@@ -95,8 +98,7 @@ pub(super) fn wgsl_constants() -> String {
     let (scale, offset) = filmic_shoulder();
     format!(
         "const TONE_REINHARD: u32 = {}u;\nconst TONE_FILMIC: u32 = {}u;\n\
-         const REINHARD_WHITE: f32 = {REINHARD_WHITE:?};\nconst FILMIC_CONTRAST: f32 = {FILMIC_CONTRAST:?};\n\
-         const FILMIC_WHITE: f32 = {FILMIC_WHITE:?};\nconst FILMIC_SCALE: f32 = {scale:?};\n\
+         const REINHARD_WHITE: f32 = {REINHARD_WHITE:?};\nconst FILMIC_WHITE: f32 = {FILMIC_WHITE:?};\nconst FILMIC_SCALE: f32 = {scale:?};\n\
          const FILMIC_OFFSET: f32 = {offset:?};\n",
         ToneCurve::Reinhard.index(),
         ToneCurve::Filmic.index(),

@@ -41,6 +41,8 @@ pub struct Panel {
     pub background: [f32; 4],
     /// Width and height in pixels, tone curve.
     pub screen: [f32; 4],
+    /// Above 0 when painted: great circles, face tint, grid.
+    pub overlays: [f32; 4],
 }
 
 /// Name and offset of each member of a block.
@@ -61,7 +63,7 @@ pub fn blocks() -> Vec<(&'static str, usize, Members)> {
     vec![
         block!(Bake: chart, environment),
         block!(View: clip_from_relative, eye, forward, right, up, probe),
-        block!(Panel: window, background, screen),
+        block!(Panel: window, background, screen, overlays),
     ]
 }
 

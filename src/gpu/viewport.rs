@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::frame::{Frame, Look, ViewportFrame};
-use super::kit::{Kit, VIEW_FORMAT, VIEWPORT, Variant, show_source};
+use super::kit::{Kit, VIEW_FORMAT, Variant, viewport_source};
 use super::map::Map;
 use super::uniforms::{View, vec4};
 use crate::mapping::MappingId;
@@ -11,6 +11,8 @@ use crate::scene::Object;
 
 /// Samples of a pixel, for a smooth silhouette; light is looked up once a pixel.
 const SAMPLES: u32 = 4;
+/// Largest picture with several samples, in pixels: 4096 x 4096, whose samples and depths take 512 MiB.
+const MOST_SAMPLED_PX: u64 = 1 << 24;
 const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Bytes of a vertex: position and normal.
 const VERTEX_BYTES: u64 = 24;
@@ -211,10 +213,12 @@ fn view_block(frame: &ViewportFrame, look: Look) -> View {
 }
 
 /// Samples of a pixel in this frame. On a processor they double the time of a frame (measured: 110 against 55 ms), so there
-/// they are left to complete frames.
+/// they are left to complete frames; pictures beyond [`MOST_SAMPLED_PX`] do without.
 pub(super) fn samples(kit: &Kit, frame: &Frame) -> u32 {
     let on_processor = kit.gpu.adapter_info.device_type == wgpu::DeviceType::Cpu;
-    if on_processor && !frame.complete {
+    let [width, height] = frame.viewport.map_or([0, 0], |v| v.size_px).map(u64::from);
+    let is_large = width * height > MOST_SAMPLED_PX;
+    if is_large || (on_processor && !frame.complete) {
         1
     } else {
         SAMPLES
@@ -321,7 +325,7 @@ fn keys(frame: &ViewportFrame, maps: &BTreeMap<MappingId, Map>, samples: u32) ->
 }
 
 fn pipeline(kit: &Kit, (part, id, variant, samples): Key) -> wgpu::RenderPipeline {
-    let module = kit.module("viewport", &show_source(id, VIEWPORT, variant));
+    let module = kit.module("viewport", &viewport_source(id, variant));
     let layout = kit.pipeline_layout(&kit.lookup);
     let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
     let vertex_layout = [Some(wgpu::VertexBufferLayout {

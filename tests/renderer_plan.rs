@@ -1,0 +1,285 @@
+//! What the renderer draws and what it leaves out, what it refuses, and the blocks that both languages know.
+
+#![cfg(feature = "explorer")]
+#![allow(missing_docs, clippy::unwrap_used)]
+
+mod render;
+
+use render::*;
+use sixfold::gpu::{
+    EnvironmentSource, Frame, Gpu, Node, PanelFrame, RenderError, Renderer, ViewportFrame, kit,
+    map_size, uniforms,
+};
+use sixfold::mapping::MappingId;
+use sixfold::scene::Object;
+
+#[test]
+fn nothing_runs_that_is_not_needed() {
+    use MappingId::{Ccm, Cube, Latlong};
+    let mut renderer = renderer([64, 32], direction_light);
+    let view = viewport(Ccm);
+    let both = [panel(Ccm), panel(Cube)];
+    let mut seen = Frame {
+        complete: false,
+        ..frame(Some(view), &both)
+    };
+
+    // One map a call.
+    let first = renderer.draw(&seen).unwrap();
+    assert_eq!(
+        first.ran,
+        [Node::Map(Ccm), Node::Viewport, Node::Panel(Ccm)]
+    );
+    assert!(first.is_pending());
+    let second = renderer.draw(&seen).unwrap();
+    assert_eq!(second.ran, [Node::Map(Cube), Node::Panel(Cube)]);
+    assert!(!second.is_pending());
+
+    // A still picture.
+    let still = renderer.draw(&seen).unwrap().clone();
+    assert!(still.ran.is_empty() && still.skipped.len() == 5);
+    assert_eq!(still.totals.submissions, 2);
+    assert_eq!(renderer.draw(&seen).unwrap().totals.submissions, 2);
+
+    // Orbit, probe, object and divider: the viewport alone.
+    let mut changed = view;
+    changed.camera.orbit(0.3, 0.1);
+    let orbited = changed;
+    changed.probe = [0.6, 0.0, 0.8];
+    changed.show_probe = true;
+    let probed = changed;
+    changed.object = Object::Torus;
+    for view in [orbited, probed, changed] {
+        seen.viewport = Some(view);
+        assert_eq!(renderer.draw(&seen).unwrap().ran, [Node::Viewport]);
+    }
+    // A probe that is not shown changes nothing.
+    seen.viewport = Some(ViewportFrame {
+        show_probe: false,
+        ..changed
+    });
+    renderer.draw(&seen).unwrap();
+    seen.viewport = Some(ViewportFrame {
+        show_probe: false,
+        probe: [1.0, 0.0, 0.0],
+        ..changed
+    });
+    assert!(renderer.draw(&seen).unwrap().ran.is_empty());
+
+    // A panel's window: that panel alone. Exposure: all pictures, no map.
+    seen.panels[1].window = [0.2, 0.2, 0.4, 0.5];
+    assert_eq!(renderer.draw(&seen).unwrap().ran, [Node::Panel(Cube)]);
+    seen.exposure_ev = 1.0;
+    let exposed = renderer.draw(&seen).unwrap();
+    assert_eq!(
+        exposed.ran,
+        [Node::Viewport, Node::Panel(Ccm), Node::Panel(Cube)]
+    );
+    assert_eq!(exposed.totals.map_bakes, 2, "no map since the first two");
+
+    // A view keeps its number until its size changes.
+    let (id, panel_id) = (renderer.viewport_id(), renderer.panel_id(Cube));
+    seen.panels[1].size_px = [50, 60];
+    renderer.draw(&seen).unwrap();
+    assert_eq!(renderer.viewport_id(), id);
+    assert_ne!(renderer.panel_id(Cube), panel_id);
+
+    // What is hidden is gone: panel, map, pipelines.
+    let before = renderer.report().clone();
+    seen.panels.truncate(1);
+    let after = renderer.draw(&seen).unwrap().clone();
+    assert!(after.ran.is_empty());
+    assert_eq!(before.pipelines - after.pipelines, 2, "bake and panel");
+    assert_eq!(before.textures - after.textures, 2, "map and panel");
+    assert!(after.texture_bytes < before.texture_bytes);
+    assert!(renderer.panel(Cube).is_none() && renderer.map_size(Cube).is_none());
+    assert!(renderer.panel(Ccm).is_some(), "control");
+
+    // Another mapping in the viewport: the old one keeps only what its panel needs.
+    seen.viewport = Some(viewport(Latlong));
+    let report = renderer.draw(&seen).unwrap();
+    assert_eq!(report.ran, [Node::Map(Latlong), Node::Viewport]);
+    assert_eq!(report.pipelines, 2 + 1 + 2, "bakes, panel, sky and object");
+    seen.panels.clear();
+    seen.viewport = None;
+    let report = renderer.draw(&seen).unwrap();
+    assert_eq!(
+        (report.pipelines, report.textures),
+        (0, 1),
+        "only the environment is left"
+    );
+    assert!(renderer.viewport().is_none());
+}
+
+#[test]
+fn a_new_environment_or_budget_bakes_anew_one_map_a_call() {
+    use MappingId::{Ccm, Cube};
+    let mut renderer = renderer([64, 32], direction_light);
+    let mut seen = frame(None, &[panel(Ccm), panel(Cube)]);
+    renderer.draw(&seen).unwrap();
+    seen.complete = false;
+    set(&mut renderer, [32, 16], |_| [0.25; 3]);
+    let report = renderer.draw(&seen).unwrap();
+    assert_eq!(report.ran, [Node::Map(Ccm), Node::Panel(Ccm)]);
+    assert_eq!(
+        report.pending,
+        [Node::Map(Cube)],
+        "its panel still shows the old one"
+    );
+    assert_eq!(
+        renderer.draw(&seen).unwrap().ran,
+        [Node::Map(Cube), Node::Panel(Cube)]
+    );
+    assert_eq!(renderer.read_texel(Cube, 2, [3, 4]).unwrap(), [0.25; 3]);
+    seen.texel_budget *= 2;
+    seen.complete = true;
+    assert_eq!(renderer.draw(&seen).unwrap().ran.len(), 4);
+    assert_eq!(renderer.map_size(Cube), Some(map_size(Cube, 2 * BUDGET)));
+}
+
+#[test]
+fn what_is_too_large_or_wrong_is_refused() {
+    let mut renderer = renderer([64, 32], direction_light);
+    let good = frame(Some(viewport(MappingId::Cube)), &[]);
+    let huge_view = ViewportFrame {
+        size_px: [1 << 20, 4],
+        ..viewport(MappingId::Cube)
+    };
+    let huge_panel = PanelFrame {
+        size_px: [4, 1 << 20],
+        ..panel(MappingId::Cube)
+    };
+    for bad in [
+        Frame {
+            texel_budget: u32::MAX,
+            ..frame(Some(viewport(MappingId::Latlong)), &[])
+        },
+        frame(Some(huge_view), &[]),
+        frame(None, &[huge_panel]),
+    ] {
+        let error = renderer.draw(&bad).unwrap_err();
+        assert!(matches!(error, RenderError::TooLarge { .. }), "{error}");
+        assert!(!error.to_string().contains('\n'));
+        renderer.draw(&good).unwrap();
+    }
+    let pixels = [[0.0; 3]; 5];
+    for (width, height) in [(2, 2), (0, 0), (5, 0), (u32::MAX, u32::MAX)] {
+        let source = EnvironmentSource {
+            width,
+            height,
+            pixels: &pixels,
+        };
+        assert!(matches!(
+            renderer.set_environment(source),
+            Err(RenderError::BadEnvironment { .. })
+        ));
+    }
+    assert!(
+        renderer.draw(&good).unwrap().ran.is_empty(),
+        "the old environment stays"
+    );
+
+    // Numbers that make no sense, and sizes of 0.
+    let mut strange = good.clone();
+    let view = strange.viewport.as_mut().unwrap();
+    view.camera.yaw_rad = f32::NAN;
+    view.probe = [f32::NAN; 3];
+    view.show_probe = true;
+    strange.exposure_ev = f32::INFINITY;
+    strange.panels.push(PanelFrame {
+        window: [f32::NAN; 4],
+        ..panel(MappingId::Cube)
+    });
+    strange.panels.push(PanelFrame {
+        size_px: [0, 7],
+        ..panel(MappingId::Ccm)
+    });
+    renderer.draw(&strange).unwrap();
+    assert!(
+        renderer.draw(&strange).unwrap().ran.is_empty(),
+        "not even NaN redraws"
+    );
+    assert!(renderer.panel(MappingId::Ccm).is_none());
+}
+
+#[test]
+fn a_lost_device_is_an_error() {
+    let mut renderer = renderer([64, 32], direction_light);
+    let mut seen = frame(Some(viewport(MappingId::Cube)), &[]);
+    renderer.draw(&seen).unwrap();
+    renderer.gpu().device.destroy();
+    let _ = renderer
+        .gpu()
+        .device
+        .poll(wgpu::PollType::wait_indefinitely());
+    seen.exposure_ev = 1.0;
+    let error = renderer.draw(&seen).unwrap_err();
+    assert!(matches!(error, RenderError::DeviceLost(_)), "{error}");
+    assert!(renderer.read_texel(MappingId::Cube, 0, [0, 0]).is_err());
+}
+
+#[test]
+fn without_an_environment_nothing_is_drawn() {
+    let mut renderer = Renderer::new(Gpu::headless().unwrap());
+    let seen = frame(Some(viewport(MappingId::Cube)), &[panel(MappingId::Cube)]);
+    let report = renderer.draw(&seen).unwrap();
+    assert!(report.ran.is_empty() && !report.is_pending());
+    assert_eq!((report.textures, report.pipelines), (0, 0));
+}
+
+/// The module of a text, checked by naga.
+fn module(source: &str) -> naga::Module {
+    let module = naga::front::wgsl::parse_str(source)
+        .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
+    let capabilities = naga::valid::Capabilities::empty();
+    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), capabilities)
+        .validate(&module)
+        .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
+    module
+}
+
+#[test]
+fn every_pass_is_valid_and_blocks_agree() {
+    let all = kit::Variant {
+        great_circles: true,
+        face_tint: true,
+        grid: true,
+        probe: true,
+        level: true,
+    };
+    let mut modules = vec![module(kit::HALVE)];
+    for &id in MappingId::ALL {
+        modules.push(module(&kit::bake_source(id)));
+        modules.push(module(&kit::panel_source(id)));
+        for variant in [kit::Variant::default(), all] {
+            modules.push(module(&kit::viewport_source(id, variant)));
+        }
+    }
+    for (name, size, members) in uniforms::blocks() {
+        let found: Vec<_> = modules
+            .iter()
+            .flat_map(|m| m.types.iter().map(|(_, t)| t))
+            .filter(|t| t.name.as_deref() == Some(name))
+            .collect();
+        assert!(!found.is_empty(), "no pass has a block {name}");
+        for block in found {
+            let naga::TypeInner::Struct {
+                members: theirs,
+                span,
+            } = &block.inner
+            else {
+                panic!("{name} is no struct");
+            };
+            assert_eq!(*span as usize, size, "{name}");
+            let theirs: Vec<_> = theirs
+                .iter()
+                .map(|m| (m.name.clone().unwrap(), m.offset as usize))
+                .collect();
+            let ours: Vec<_> = members
+                .iter()
+                .map(|(n, at)| ((*n).to_owned(), *at))
+                .collect();
+            assert_eq!(theirs, ours, "{name}");
+        }
+    }
+}
