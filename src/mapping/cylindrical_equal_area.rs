@@ -26,7 +26,7 @@ impl Mapping for CylindricalEqualArea {
         weak_spots: &[WeakSpot {
             dir: [0.0, -1.0, 0.0],
             great_circle: false,
-            radius_rad: 0.042,
+            radius_rad: 0.05,
             outside_rad: 1.5e-6,
             reason: "v is flat at the poles, and near v = 1 half of the last digit of v is worth 6e-8 rad over the angle from the pole",
         }],
