@@ -58,6 +58,14 @@ fn is_below_zero(x: f32) -> bool {
     return bitcast<u32>(x) > 0x80000000u;
 }
 
+// Squared height of the unit ball over a point of the disc, 1 - (2u - 1)^2 - (2v - 1)^2: near the rim the larger product
+// is at least 1/2, so that taking it from 1 is exact.
+fn height_squared(u: f32, v: f32) -> f32 {
+    let a = 4.0 * u * (1.0 - u);
+    let b = 4.0 * v * (1.0 - v);
+    return (max(a, b) - 1.0) + min(a, b);
+}
+
 fn hypotenuse(a: f32, b: f32) -> f32 {
     let large = max(abs(a), abs(b));
     // Below the normal numbers a division may do anything, and an error of that size does not show.

@@ -1,5 +1,12 @@
 //! The command line as other programs see it: the real binary, its streams and its exit status.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::print_stdout,
+    reason = "tests say what they expect by unwrapping, and what they saw by printing"
+)]
+
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, Command, Stdio};
 
@@ -214,6 +221,18 @@ fn a_point_off_the_chart_is_reported() {
     let corner = self::run(&["eval", "sphere", "--inverse"], "0,0.01,0.01\n");
     assert_eq!(corner.status, 1);
     assert!(corner.err.contains("inside the disc"), "{}", corner.err);
+}
+
+#[test]
+fn a_rim_point_written_in_f32_is_read_in_f64() {
+    // The first lies on the disc for f32 and 1.7e-7 outside of it for f64; the second is outside for both.
+    let run = run(
+        &["eval", "paraboloid", "--inverse", "--precision", "f64"],
+        "0,0.8535535,0.1464466\n0,0.85356,0.14644\n",
+    );
+    let rows: Vec<&str> = run.out.lines().collect();
+    assert!(numbers(rows[1])[2].abs() < 1e-15, "{}", rows[1]);
+    assert_eq!((run.status, rows[2]), (1, ",,,0,0.85356,0.14644"));
 }
 
 #[test]

@@ -7,10 +7,10 @@ fn cylindrical_equal_area_forward(dir: vec3f) -> ChartPoint {
     let d = scaled_direction(dir);
     let u = 0.5 + angle_of(d.x, d.z) * (0.5 * FRAC_1_PI);
     let n = length_of(d);
-    var v = 0.5 * (1.0 - d.y / n);
-    if d.y > 0.0 {
-        let across = hypotenuse(d.x, d.z);
-        v = 0.5 * (across / n) * (across / (n + d.y));
+    let across = hypotenuse(d.x, d.z);
+    var v = 0.5 * (across / n) * (across / (n + abs(d.y)));
+    if d.y <= 0.0 {
+        v = 1.0 - v;
     }
     return chart_point(0u, u, v);
 }

@@ -13,6 +13,6 @@ fn matcap_forward(dir: vec3f) -> ChartPoint {
 fn matcap_inverse(p: ChartPoint) -> vec3f {
     let x = 2.0 * p.u - 1.0;
     let y = 1.0 - 2.0 * p.v;
-    let z = -sqrt(max(1.0 - (x * x + y * y), 0.0));
+    let z = -sqrt(max(height_squared(p.u, p.v), 0.0));
     return unit(vec3f(x, y, z));
 }

@@ -144,20 +144,35 @@ impl Plan {
 
     /// The direction of a chart point; `None` off the chart.
     pub(super) fn inverse(&self, point: ChartPoint<f64>) -> Option<[f64; 3]> {
-        let rounded = ChartPoint::new(point.chart, point.u as f32, point.v as f32);
-        match (self.formula, self.single) {
-            (Formula::Mapping(map), true) => map.inverse(rounded).map(Vec3::to_f64),
-            (Formula::Mapping(map), false) => map.inverse(point).map(Vec3::to_f64),
-            (Formula::Convention(convention), single) => {
-                let (in_f32, in_f64) = convention.inverse?;
-                if single {
-                    in_f32(rounded).map(Vec3::to_f64)
-                } else {
-                    in_f64(point).map(Vec3::to_f64)
-                }
+        if self.single {
+            let point = ChartPoint::new(point.chart, point.u as f32, point.v as f32);
+            return match self.formula {
+                Formula::Mapping(map) => map.inverse(point),
+                Formula::Convention(convention) => (convention.inverse?.0)(point),
+                Formula::Own(_) => None,
             }
-            (Formula::Own(_), _) => None,
+            .map(Vec3::to_f64);
         }
+        let point = self.on_disc(point);
+        match self.formula {
+            Formula::Mapping(map) => map.inverse(point),
+            Formula::Convention(convention) => (convention.inverse?.1)(point),
+            Formula::Own(_) => None,
+        }
+        .map(Vec3::to_f64)
+    }
+
+    /// A rim point that was rounded to f32 may lie outside of the disc by more than f64 allows: it stands for the nearest
+    /// point of the rim.
+    fn on_disc(&self, point: ChartPoint<f64>) -> ChartPoint<f64> {
+        let domain = self.info.domain;
+        let in_f32 = domain.contains(point.u as f32, point.v as f32);
+        if domain.contains(point.u, point.v) || !in_f32 {
+            return point;
+        }
+        let (p, q) = (point.u - 0.5, point.v - 0.5);
+        let diameter = 2.0 * p.hypot(q);
+        ChartPoint::new(point.chart, 0.5 + p / diameter, 0.5 + q / diameter)
     }
 }
 

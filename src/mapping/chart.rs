@@ -155,6 +155,18 @@ impl Domain {
     }
 }
 
+/// Squared height of the unit ball over a point of the disc: 1 - p^2 - q^2 with p = 2u - 1, q = 2v - 1.
+///
+/// 1 - p^2 is 4u(1 - u), which keeps the digits of a small u that 2u - 1 rounds away; near the rim, where they matter,
+/// the larger of the two lies in [1/2, 1], so that taking it from 1 is exact.
+pub(super) fn height_squared<R: Real>(u: R, v: R) -> R {
+    let four = R::two() * R::two();
+    let (a, b) = (four * u * (R::one() - u), four * v * (R::one() - v));
+    // Not `max` and `min`: on a tie both would give the same one, and a dual number would lose the other's derivative.
+    let (large, small) = if a < b { (b, a) } else { (a, b) };
+    (large - R::one()) + small
+}
+
 /// Which directions have an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coverage {

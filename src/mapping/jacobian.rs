@@ -71,7 +71,8 @@ impl MappingId {
     }
 
     /// Solid angle in sr of the texel (column, row) of a chart of `size` = [width, height] texels, by Gauss's rule with
-    /// 3 x 3 nodes, exact to the sixth order of the texel's size; parts outside the domain count nothing.
+    /// 3 x 3 nodes, exact to the sixth order of the texel's size where the map is smooth: a texel across whose diagonal the
+    /// octahedral map is folded is off by a thousandth at 64 x 64. Parts outside the domain count nothing.
     pub fn texel_solid_angle_sr(self, chart: u32, texel: [u32; 2], size: [u32; 2]) -> f64 {
         // Nodes and weights of Gauss-Legendre quadrature with three points on [0, 1].
         let offset = 0.5 * 0.6_f64.sqrt();

@@ -3,6 +3,7 @@
 //! Two directions share each texel. The inverse returns the one that faces the viewer (z <= 0), and the mapping covers
 //! that hemisphere only. It is Hoff's sphere map if the vector put in is the normal instead of the direction.
 
+use super::chart::height_squared;
 use super::{
     ChartPoint, Claims, Convention, Coverage, Domain, Layout, Mapping, MappingInfo, Step, WeakSpot,
 };
@@ -30,9 +31,9 @@ impl Mapping for Matcap {
         weak_spots: &[WeakSpot {
             dir: [0.0, 0.0, 1.0],
             great_circle: true,
-            radius_rad: 0.2,
+            radius_rad: 0.16,
             outside_rad: 1.5e-6,
-            reason: "at the rim the disc is seen edge-on: an angle moves x and y by its square only",
+            reason: "at the rim the disc is seen edge-on: an angle from it moves x and y by half its square only",
         }],
         conventions: &[Convention {
             id: "scali",
@@ -59,7 +60,7 @@ impl Mapping for Matcap {
         }
         let x = R::two() * point.u - R::one();
         let y = R::one() - R::two() * point.v;
-        let z = -(R::one() - (x * x + y * y)).max(R::zero()).sqrt();
+        let z = -height_squared(point.u, point.v).max(R::zero()).sqrt();
         Some(Vec3::new(x, y, z).normalized())
     }
 

@@ -3,10 +3,11 @@
 //! The centre of the chart is the direction back to the viewer, -z; the whole rim is +z, the one direction that has no
 //! unique image. The map is exactly equal-area (16 sr per unit of chart area); it fails by shape, at the rim.
 
+use super::chart::height_squared;
 use super::{
     ChartPoint, Claims, Convention, Coverage, Domain, Layout, Mapping, MappingInfo, Step, WeakSpot,
 };
-use crate::math::{Real, Vec3, unit_in_plane};
+use crate::math::{Real, Vec3};
 
 /// See the [module](self).
 pub struct Sphere;
@@ -58,7 +59,7 @@ impl Mapping for Sphere {
         // (p, q, -w) is the ball's normal; the direction is the view reflected there.
         let p = R::two() * point.u - R::one();
         let q = R::one() - R::two() * point.v;
-        let w = (R::one() - (p * p + q * q)).max(R::zero()).sqrt();
+        let w = height_squared(point.u, point.v).max(R::zero()).sqrt();
         let twice = R::two() * w;
         Some(Vec3::new(twice * p, twice * q, R::one() - twice * w))
     }
@@ -95,12 +96,16 @@ fn disc_offset<R: Real>(d: Vec3<R>) -> (R, R) {
         let m = R::two() * (d.x * d.x + d.y * d.y + (n - d.z) * (n - d.z)).sqrt();
         return (d.x / m, d.y / m);
     }
-    // Ahead, n - z cancels; it equals rho^2/(n + z), and dividing m by rho leaves nothing that can vanish.
-    let rho = d.x.hypot(d.y);
-    let (x, y) = unit_in_plane(d.x, d.y);
-    let slope = rho / (n + d.z);
-    let m_over_rho = R::two() * (R::one() + slope * slope).sqrt();
-    (x / m_over_rho, y / m_over_rho)
+    // Ahead, n - z cancels; it equals rho slope with slope = rho/(n + z). Near the rim a rounding of u moves the direction
+    // a thousand times as far, so m is formed with as few as can be: from x and y at a scale at which their squares, too,
+    // are normal numbers.
+    let Some(across) = Vec3::new(d.x, d.y, R::zero()).scaled_direction() else {
+        return (R::half(), R::zero());
+    };
+    let slope = d.x.hypot(d.y) / (n + d.z);
+    let square = across.x * across.x + across.y * across.y;
+    let m = R::two() * (square + square * (slope * slope)).sqrt();
+    (across.x / m, across.y / m)
 }
 
 /// Hoff's numbers: the same point with t counted upwards.
