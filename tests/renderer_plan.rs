@@ -1,14 +1,17 @@
-//! What the renderer draws and what it leaves out, what it refuses, and the blocks that both languages know.
+//! What the renderer draws and what it leaves out, and what it refuses.
 
 #![cfg(feature = "explorer")]
-#![allow(missing_docs, clippy::unwrap_used)]
+#![allow(
+    missing_docs,
+    clippy::unwrap_used,
+    reason = "helpers of tests say what they expect by unwrapping"
+)]
 
 mod render;
 
 use render::*;
 use sixfold::gpu::{
-    EnvironmentSource, Frame, Gpu, Node, PanelFrame, RenderError, Renderer, ViewportFrame, kit,
-    map_size, uniforms,
+    EnvironmentSource, Frame, Gpu, Node, PanelFrame, RenderError, Renderer, ViewportFrame, map_size,
 };
 use sixfold::mapping::MappingId;
 use sixfold::scene::Object;
@@ -225,61 +228,4 @@ fn without_an_environment_nothing_is_drawn() {
     let report = renderer.draw(&seen).unwrap();
     assert!(report.ran.is_empty() && !report.is_pending());
     assert_eq!((report.textures, report.pipelines), (0, 0));
-}
-
-/// The module of a text, checked by naga.
-fn module(source: &str) -> naga::Module {
-    let module = naga::front::wgsl::parse_str(source)
-        .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
-    let capabilities = naga::valid::Capabilities::empty();
-    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), capabilities)
-        .validate(&module)
-        .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
-    module
-}
-
-#[test]
-fn every_pass_is_valid_and_blocks_agree() {
-    let all = kit::Variant {
-        great_circles: true,
-        face_tint: true,
-        grid: true,
-        probe: true,
-        level: true,
-    };
-    let mut modules = vec![module(kit::HALVE)];
-    for &id in MappingId::ALL {
-        modules.push(module(&kit::bake_source(id)));
-        modules.push(module(&kit::panel_source(id)));
-        for variant in [kit::Variant::default(), all] {
-            modules.push(module(&kit::viewport_source(id, variant)));
-        }
-    }
-    for (name, size, members) in uniforms::blocks() {
-        let found: Vec<_> = modules
-            .iter()
-            .flat_map(|m| m.types.iter().map(|(_, t)| t))
-            .filter(|t| t.name.as_deref() == Some(name))
-            .collect();
-        assert!(!found.is_empty(), "no pass has a block {name}");
-        for block in found {
-            let naga::TypeInner::Struct {
-                members: theirs,
-                span,
-            } = &block.inner
-            else {
-                panic!("{name} is no struct");
-            };
-            assert_eq!(*span as usize, size, "{name}");
-            let theirs: Vec<_> = theirs
-                .iter()
-                .map(|m| (m.name.clone().unwrap(), m.offset as usize))
-                .collect();
-            let ours: Vec<_> = members
-                .iter()
-                .map(|(n, at)| ((*n).to_owned(), *at))
-                .collect();
-            assert_eq!(theirs, ours, "{name}");
-        }
-    }
 }

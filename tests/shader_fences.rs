@@ -12,15 +12,31 @@ use std::f32::consts;
 use std::mem::{offset_of, size_of};
 
 use naga::Literal;
-use sixfold::gpu::{compute, shader};
+use sixfold::gpu::{compute, kit, shader, uniforms};
 use sixfold::mapping::{Domain, MappingId, ccm};
 use sixfold::math::{ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS};
 
 /// Every pass of the app: name and whole text. A new pass is a new line here.
 fn passes() -> Vec<(String, String)> {
-    let mut passes = vec![("plain".to_owned(), shader::plain(""))];
+    let mut passes = vec![
+        ("plain".to_owned(), shader::plain("")),
+        ("halve".to_owned(), kit::HALVE.to_owned()),
+    ];
+    let every_overlay = kit::Variant {
+        great_circles: true,
+        face_tint: true,
+        grid: true,
+        probe: true,
+        level: true,
+    };
     for &id in MappingId::ALL {
         passes.push((format!("evaluate {id}"), compute::GpuEvaluator::source(id)));
+        passes.push((format!("bake {id}"), kit::bake_source(id)));
+        passes.push((format!("panel {id}"), kit::panel_source(id)));
+        for variant in [kit::Variant::default(), every_overlay] {
+            let name = format!("viewport {id} {variant:?}");
+            passes.push((name, kit::viewport_source(id, variant)));
+        }
         for &source in MappingId::ALL {
             let roles = [("source", source), ("target", id)];
             passes.push((
@@ -277,4 +293,22 @@ fn a_wrong_layout_is_reported() {
     }
     let wrong_size = wgsl::check_layout(text, "Sample", &members, size + 16);
     assert!(wrong_size.is_err());
+}
+
+#[test]
+fn the_renderers_blocks_lie_in_memory_as_the_shaders_read_them() {
+    let passes = passes();
+    for (name, size, members) in uniforms::blocks() {
+        let holding: Vec<_> = passes
+            .iter()
+            .filter(|(_, text)| text.contains(&format!("struct {name} ")))
+            .collect();
+        assert!(!holding.is_empty(), "no pass has a block {name}");
+        for (_, text) in holding {
+            wgsl::assert_layout(text, name, &members, size);
+            let mut moved = members.clone();
+            moved[0].1 += 4;
+            assert!(wgsl::check_layout(text, name, &moved, size).is_err());
+        }
+    }
 }

@@ -196,8 +196,9 @@ impl Gpu {
             wgpu::PollError::Timeout => GpuError::Timeout,
             other => GpuError::Refused(other.to_string()),
         })?;
+        // Another thread that waits on this device may have taken the callback up and still be about to call it.
         receiver
-            .try_recv()
+            .recv_timeout(PATIENCE)
             .map_err(|_| GpuError::Timeout)?
             .map_err(|error| GpuError::Refused(error.to_string()))?;
         let view = buffer
