@@ -4,6 +4,7 @@
 #![cfg(all(feature = "explorer", target_os = "linux"))]
 #![expect(
     clippy::unwrap_used,
+    clippy::expect_used,
     reason = "helpers of tests say what they expect by unwrapping"
 )]
 

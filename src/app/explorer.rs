@@ -1,5 +1,7 @@
 //! The explorer: state, renderer and jobs behind one window, or behind a picture drawn without one.
 
+mod jobs;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -9,20 +11,21 @@ use egui::{CentralPanel, Context, Panel, Ui};
 use super::action::{Action, apply};
 use super::command::Command;
 use super::dialogs::{Dialog, dialog_ui};
-use super::files::{self, Opened};
+use super::files::Opened;
 use super::frame::frame_of;
 use super::history::History;
-use super::job::{Job, Outcome};
-use super::model::{JobLine, Message, Model, Surroundings};
+use super::job::Job;
+use super::model::{Message, Model, Surroundings};
 use super::panes::{self, Pane};
-use super::picture::{self, Destination, PictureRequest};
+use super::picture::{self, PictureRequest};
 use super::state::AppState;
 use super::texel_color::{TexelColor, TexelKey};
 use super::views::{ViewKey, Views};
 use super::{bars, controls, inspector, keys};
-use crate::gpu::{EnvironmentSource, Gpu, Renderer};
-use crate::imaging::{Environment, LoadError, Loaded};
+use crate::gpu::{Gpu, Renderer};
 use crate::scene::{Object, Target};
+
+use jobs::Ready;
 
 /// A dialog of the system that has not been answered: what it asks for, and the file when there is one.
 type Asked = (Dialog, Job<Option<PathBuf>>);
@@ -37,7 +40,7 @@ pub struct Explorer {
     tree: egui_tiles::Tree<Pane>,
     target: (Object, Target),
     surroundings: Option<Surroundings>,
-    loading: Option<(Environment, Job<Result<Loaded, LoadError>>)>,
+    loading: Option<Job<Result<Ready, String>>>,
     opening: Option<Job<Result<Opened, String>>>,
     pictures: Vec<(PictureRequest, Job<Result<picture::Picture, String>>)>,
     asked: Option<Asked>,
@@ -54,6 +57,8 @@ pub struct Explorer {
     texel_color: TexelColor,
     probed: Option<[f32; 3]>,
     quit: bool,
+    /// Not even the default surroundings could be loaded.
+    is_bare: bool,
 }
 
 impl Explorer {
@@ -82,6 +87,7 @@ impl Explorer {
             texel_color: TexelColor::default(),
             probed: None,
             quit: false,
+            is_bare: false,
             gpu,
             state,
         }
@@ -126,14 +132,18 @@ impl Explorer {
     }
 
     /// Shows surroundings that are there already, every map at once from now on: for pictures without a window.
-    pub(super) fn show_now(&mut self, surroundings: Surroundings) {
+    ///
+    /// # Errors
+    /// When the device cannot hold them.
+    pub(super) fn show_now(&mut self, surroundings: Surroundings) -> Result<(), String> {
         self.complete = true;
-        self.install(surroundings);
+        self.install(Ready::new(&self.gpu, surroundings)?);
+        Ok(())
     }
 
     /// What has to happen before a frame: results of jobs, dropped files, keys.
     pub fn logic(&mut self, ctx: &Context) {
-        if self.surroundings.is_none() && self.loading.is_none() {
+        if self.surroundings.is_none() && self.loading.is_none() && !self.is_bare {
             self.load(ctx, self.state.environment.clone());
         }
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
@@ -267,27 +277,6 @@ impl Explorer {
         self.texel_color.get(&self.renderer, key)
     }
 
-    fn job_lines(&self) -> Vec<JobLine> {
-        let line = |id: u64, title: &str, progress: &crate::imaging::Progress| JobLine {
-            id,
-            title: title.to_owned(),
-            fraction: progress.fraction(),
-        };
-        let loading = self
-            .loading
-            .iter()
-            .map(|(_, job)| line(job.id, &job.title, &job.progress));
-        let opening = self
-            .opening
-            .iter()
-            .map(|job| line(job.id, &job.title, &job.progress));
-        let pictures = self
-            .pictures
-            .iter()
-            .map(|(_, job)| line(job.id, &job.title, &job.progress));
-        loading.chain(opening).chain(pictures).collect()
-    }
-
     /// Carries out a command.
     pub fn run(&mut self, ctx: &Context, command: Command) {
         match command {
@@ -366,213 +355,6 @@ impl Explorer {
             self.target = (self.state.object, Target::new(self.state.object.mesh()));
         }
         panes::follow(&mut self.tree, &self.state);
-    }
-
-    fn job_id(&mut self) -> u64 {
-        self.next_job += 1;
-        self.next_job
-    }
-
-    /// Starts loading surroundings; an older load is cancelled.
-    fn load(&mut self, ctx: &Context, environment: Environment) {
-        let (id, wake) = (self.job_id(), ctx.clone());
-        let wanted = environment.clone();
-        let title = format!("opening {}", environment.name());
-        let job = Job::start(
-            id,
-            title,
-            move || wake.request_repaint(),
-            move |progress| wanted.image(progress),
-        );
-        match job {
-            Ok(job) => self.loading = Some((environment, job)),
-            Err(error) => self.fail(format!("no thread for opening the environment: {error}")),
-        }
-    }
-
-    /// Opens a scene, a picture with a scene in it, or an environment, whichever the file is.
-    fn open(&mut self, ctx: &Context, path: PathBuf) {
-        let (id, wake) = (self.job_id(), ctx.clone());
-        let title = format!("reading {}", path.display());
-        let job = Job::start(
-            id,
-            title,
-            move || wake.request_repaint(),
-            move |_| files::open(&path),
-        );
-        match job {
-            Ok(job) => self.opening = Some(job),
-            Err(error) => self.fail(format!("no thread for opening the file: {error}")),
-        }
-    }
-
-    fn make_picture(&mut self, ctx: &Context, request: PictureRequest) {
-        let Some(surroundings) = self.surroundings.clone() else {
-            self.fail(
-                "the environment is still loading; save the picture when it is there".to_owned(),
-            );
-            return;
-        };
-        let (id, wake, gpu) = (self.job_id(), ctx.clone(), self.gpu.clone());
-        let (state, what) = (self.state.clone(), request.clone());
-        let job = Job::start(
-            id,
-            "drawing the picture".to_owned(),
-            move || wake.request_repaint(),
-            move |progress| picture::make(&gpu, &state, surroundings, &what, progress),
-        );
-        match job {
-            Ok(job) => self.pictures.push((request, job)),
-            Err(error) => self.fail(format!("no thread for drawing the picture: {error}")),
-        }
-    }
-
-    /// Opens a dialog of the system on a thread of its own.
-    fn ask(&mut self, ctx: &Context, dialog: Dialog) {
-        let (id, wake, kind) = (self.job_id(), ctx.clone(), dialog.clone());
-        let job = Job::start(
-            id,
-            "file dialog".to_owned(),
-            move || wake.request_repaint(),
-            move |_| files::ask(&kind),
-        );
-        match job {
-            Ok(job) => self.asked = Some((dialog, job)),
-            Err(error) => self.fail(format!("no thread for the file dialog: {error}")),
-        }
-    }
-
-    fn cancel(&mut self, id: u64) {
-        self.loading.take_if(|(_, job)| job.id == id);
-        self.opening.take_if(|job| job.id == id);
-        self.pictures.retain(|(_, job)| job.id != id);
-    }
-
-    fn poll_jobs(&mut self, ctx: &Context) {
-        self.poll_loading();
-        self.poll_opening(ctx);
-        self.poll_pictures(ctx);
-        self.poll_asked(ctx);
-    }
-
-    fn poll_loading(&mut self) {
-        let Some((environment, job)) = self.loading.take() else {
-            return;
-        };
-        match job.poll() {
-            Outcome::Running => self.loading = Some((environment, job)),
-            Outcome::Done(Ok(loaded)) => {
-                // Of the built-in ones it stands beside their name; of a file it is news.
-                if let (Environment::File(_), Some(summary)) = (&environment, loaded.bad.summary())
-                {
-                    self.tell(format!("{}: {summary}", environment.name()));
-                }
-                self.install(Surroundings {
-                    environment,
-                    loaded: Arc::new(loaded),
-                });
-            }
-            Outcome::Done(Err(error)) => self.loading_failed(error.to_string()),
-            Outcome::Failed => {
-                self.loading_failed("opening the environment ended without a result".to_owned());
-            }
-        }
-    }
-
-    /// A bad file leaves the scene as it was; a scene whose environment is missing gets the default one.
-    fn loading_failed(&mut self, why: String) {
-        self.fail(why);
-        match &self.surroundings {
-            Some(shown) => self.state.environment = shown.environment.clone(),
-            None => self.state.environment = Environment::default(),
-        }
-    }
-
-    fn install(&mut self, surroundings: Surroundings) {
-        let image = &surroundings.loaded.image;
-        let source = EnvironmentSource {
-            width: image.width(),
-            height: image.height(),
-            pixels: image.pixels(),
-        };
-        if let Err(error) = self.renderer.set_environment(source) {
-            self.loading_failed(error.to_string());
-            return;
-        }
-        if self.state.environment != surroundings.environment {
-            self.act(Action::SetEnvironment(surroundings.environment.clone()));
-        }
-        self.surroundings = Some(surroundings);
-    }
-
-    fn poll_opening(&mut self, ctx: &Context) {
-        let Some(job) = self.opening.take() else {
-            return;
-        };
-        match job.poll() {
-            Outcome::Running => self.opening = Some(job),
-            Outcome::Done(Ok(Opened::Scene(state))) => {
-                self.history
-                    .record(&self.state, &Action::Load(state.clone()));
-                self.replace(ctx, state.sanitized());
-                self.tree = panes::tree_of(&self.state);
-            }
-            Outcome::Done(Ok(Opened::Environment(environment))) => self.load(ctx, environment),
-            Outcome::Done(Err(why)) => self.fail(why),
-            Outcome::Failed => self.fail("reading the file ended without a result".to_owned()),
-        }
-    }
-
-    fn poll_pictures(&mut self, ctx: &Context) {
-        for (request, job) in std::mem::take(&mut self.pictures) {
-            match job.poll() {
-                Outcome::Running => self.pictures.push((request, job)),
-                Outcome::Done(Ok(picture)) => match request.to {
-                    Destination::File { path, .. } => {
-                        self.tell(format!("The picture is in {}", path.display()));
-                    }
-                    Destination::Clipboard => {
-                        ctx.copy_image(picture.to_color_image());
-                        self.tell("The picture is on the clipboard".to_owned());
-                    }
-                },
-                Outcome::Done(Err(why)) => self.fail(why),
-                Outcome::Failed => {
-                    self.fail("drawing the picture ended without a result".to_owned());
-                }
-            }
-        }
-    }
-
-    fn poll_asked(&mut self, ctx: &Context) {
-        let Some((dialog, job)) = self.asked.take() else {
-            return;
-        };
-        let path = match job.poll() {
-            Outcome::Running => {
-                self.asked = Some((dialog, job));
-                return;
-            }
-            Outcome::Done(path) => path,
-            Outcome::Failed => None,
-        };
-        let text = path.as_deref().map(|p| p.display().to_string());
-        match (dialog, path) {
-            (Dialog::Open(_), Some(path)) => {
-                self.dialog = None;
-                self.open(ctx, path);
-            }
-            // Without a dialog of the system the path can still be typed.
-            (Dialog::Open(_), None) => self.dialog = Some(Dialog::Open(String::new())),
-            (Dialog::SaveScene(_), path) => {
-                self.dialog = Some(Dialog::SaveScene(text.unwrap_or_default()));
-                drop(path);
-            }
-            (Dialog::Picture(mut fields), _) => {
-                fields.path = text.unwrap_or(fields.path);
-                self.dialog = Some(Dialog::Picture(fields));
-            }
-        }
     }
 
     fn tell(&mut self, text: String) {

@@ -167,7 +167,7 @@ pub fn draw(
     }
     let canvas = Canvas::new(gpu, size)?;
     let mut explorer = Explorer::new(gpu.clone(), Arc::clone(&canvas.painter), state);
-    explorer.show_now(surroundings);
+    explorer.show_now(surroundings)?;
     let ctx = Context::default();
     theme::install(&ctx);
     let scale = points_scale(request.what, size);

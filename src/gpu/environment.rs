@@ -2,6 +2,7 @@
 
 use half::f16;
 
+use super::Gpu;
 use super::kit::{HALVE, Kit, LIGHT_FORMAT, begin_pass};
 use super::renderer::RenderError;
 
@@ -16,19 +17,17 @@ pub struct EnvironmentSource<'a> {
     pub pixels: &'a [[f32; 3]],
 }
 
-/// The environment on the device.
+/// The environment on the device. It can be made on any thread and handed to the renderer.
 #[derive(Debug)]
-pub(super) struct Environment {
-    pub texture: wgpu::Texture,
-    pub view: wgpu::TextureView,
-    /// Counts up with every environment.
-    pub number: u64,
+pub struct EnvironmentTexture {
+    pub(super) texture: wgpu::Texture,
+    pub(super) view: wgpu::TextureView,
 }
 
-impl Environment {
+impl EnvironmentTexture {
     /// Uploads the picture and halves it on the device down to one texel. A picture larger than the device's textures is
-    /// halved before that until it fits.
-    pub fn new(kit: &Kit, source: EnvironmentSource<'_>, number: u64) -> Result<Self, RenderError> {
+    /// halved before that until it fits. Takes long for a large picture, so it belongs on a thread of its own.
+    pub fn new(gpu: &Gpu, source: EnvironmentSource<'_>) -> Result<Self, RenderError> {
         let (width, height) = (source.width as usize, source.height as usize);
         if width == 0 || height == 0 || source.pixels.len() != width.saturating_mul(height) {
             return Err(RenderError::BadEnvironment {
@@ -37,16 +36,17 @@ impl Environment {
                 pixels: source.pixels.len(),
             });
         }
+        let kit = &Kit::new(gpu.clone());
         let most = kit.gpu.device.limits().max_texture_dimension_2d as usize;
         let shrink = width.max(height).div_ceil(most).next_power_of_two();
         let size = [(width / shrink).max(1), (height / shrink).max(1)];
         let half = halves(source.pixels, [width, height], size, shrink);
         kit.gpu
-            .checked(|_| Self::upload(kit, &half, size.map(|n| n as u32), number))
+            .checked(|_| Self::upload(kit, &half, size.map(|n| n as u32)))
             .map_err(RenderError::from)
     }
 
-    fn upload(kit: &Kit, half: &[[f16; 4]], [width, height]: [u32; 2], number: u64) -> Self {
+    fn upload(kit: &Kit, half: &[[f16; 4]], [width, height]: [u32; 2]) -> Self {
         let device = &kit.gpu.device;
         let size = wgpu::Extent3d {
             width,
@@ -68,7 +68,7 @@ impl Environment {
         });
         kit.gpu.queue.write_texture(
             texture.as_image_copy(),
-            &as_bytes(half),
+            bytemuck::cast_slice(half),
             wgpu::TexelCopyBufferLayout {
                 offset: 0,
                 bytes_per_row: Some(width * size_of::<[f16; 4]>() as u32),
@@ -105,12 +105,11 @@ impl Environment {
         Self {
             view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
             texture,
-            number,
         }
     }
 
     /// Texels in a radian, and the last level.
-    pub fn resolution(&self) -> [f32; 2] {
+    pub(super) fn resolution(&self) -> [f32; 2] {
         [
             self.texture.height() as f32 * std::f32::consts::FRAC_1_PI,
             (self.texture.mip_level_count() - 1) as f32,
@@ -148,11 +147,6 @@ fn halves(
 /// The nearest half float, at most the largest one; 0 for what is no light.
 fn half_from(x: f32) -> f16 {
     f16::from_f32(x.max(0.0).min(f16::MAX.to_f32()))
-}
-
-fn as_bytes(half: &[[f16; 4]]) -> Vec<u8> {
-    let bits: Vec<[u16; 4]> = half.iter().map(|t| t.map(f16::to_bits)).collect();
-    bytemuck::pod_collect_to_vec(&bits)
 }
 
 #[cfg(test)]

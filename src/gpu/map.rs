@@ -1,6 +1,6 @@
 //! A mapping's own texture: one layer for each chart, with a gutter of true neighbours around it.
 
-use super::environment::Environment;
+use super::environment::EnvironmentTexture;
 use super::kit::{Kit, LIGHT_FORMAT, bake_source, begin_pass};
 use super::uniforms::Bake;
 use crate::mapping::{ChartPoint, MappingId};
@@ -103,7 +103,7 @@ impl Map {
         encoder: &mut wgpu::CommandEncoder,
         pipeline: &wgpu::RenderPipeline,
         id: MappingId,
-        environment: &Environment,
+        environment: &EnvironmentTexture,
     ) {
         let device = &kit.gpu.device;
         let charts = id.info().chart_count();

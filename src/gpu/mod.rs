@@ -19,7 +19,7 @@ mod viewport;
 
 pub use compute::GpuEvaluator;
 pub use context::{Gpu, GpuError};
-pub use environment::EnvironmentSource;
+pub use environment::{EnvironmentSource, EnvironmentTexture};
 pub use frame::{Frame, PanelFrame, ViewportFrame};
 pub use map::map_size;
 pub use overlay::{FACE_COLORS, GREAT_CIRCLE_COLORS, Overlays};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::environment::{Environment, EnvironmentSource};
+use super::environment::{EnvironmentSource, EnvironmentTexture};
 use super::frame::{Frame, PanelFrame, ViewportFrame};
 use super::kit::{Kit, texture_bytes};
 use super::map::{GUTTER, MAP_LEVELS, Map, map_size};
@@ -67,7 +67,8 @@ impl From<GpuError> for RenderError {
 #[derive(Debug)]
 pub struct Renderer {
     kit: Kit,
-    environment: Option<Environment>,
+    /// With a number that counts up with every environment.
+    environment: Option<(u64, EnvironmentTexture)>,
     maps: BTreeMap<MappingId, Map>,
     bakers: BTreeMap<MappingId, wgpu::RenderPipeline>,
     viewport: Option<Viewport>,
@@ -104,9 +105,14 @@ impl Renderer {
     /// Replaces the environment; maps are baked again as they are seen. A picture larger than the device's textures is
     /// halved until it fits. After an error the old environment stays.
     pub fn set_environment(&mut self, image: EnvironmentSource<'_>) -> Result<(), RenderError> {
-        let number = self.next_number();
-        self.environment = Some(Environment::new(&self.kit, image, number)?);
+        let texture = EnvironmentTexture::new(&self.kit.gpu, image)?;
+        self.install_environment(texture);
         Ok(())
+    }
+
+    /// As [`set_environment`](Self::set_environment), with what another thread has made ready on the same device.
+    pub fn install_environment(&mut self, texture: EnvironmentTexture) {
+        self.environment = Some((self.next_number(), texture));
     }
 
     /// Draws what the frame shows and what is not right yet; sends nothing to the device when all is. Without an
@@ -125,7 +131,7 @@ impl Renderer {
             &self.drawn,
             &frame,
             samples(&self.kit, &frame),
-            self.environment.as_ref().map(|e| e.number),
+            self.environment.as_ref().map(|(number, _)| *number),
         );
         self.drop_unseen(&frame);
         if !plan.run.is_empty()
@@ -349,7 +355,8 @@ impl Renderer {
     }
 
     fn run_map(&mut self, encoder: &mut wgpu::CommandEncoder, plan: &Plan, id: MappingId) {
-        let (Some(environment), Some(key)) = (&self.environment, plan.drawn.maps.get(&id)) else {
+        let (Some((_, environment)), Some(key)) = (&self.environment, plan.drawn.maps.get(&id))
+        else {
             return;
         };
         let kit = &self.kit;
@@ -400,7 +407,7 @@ impl Renderer {
         let textures: Vec<&wgpu::Texture> = self
             .environment
             .iter()
-            .map(|e| &e.texture)
+            .map(|(_, environment)| &environment.texture)
             .chain(self.maps.values().map(|m| &m.texture))
             .chain(self.viewport.iter().flat_map(Viewport::textures))
             .chain(self.panels.values().map(|p| &p.texture))
