@@ -2,8 +2,7 @@
 
 #![expect(
     clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "helpers of tests say what they expect by unwrapping, and what they observed by printing"
+    reason = "helpers of tests say what they expect by unwrapping"
 )]
 
 use sixfold::mapping::{ChartPoint, MappingId};
