@@ -2,7 +2,7 @@
 //!
 //! Azimuthal equidistant: centre +z, the whole rim -z.
 
-use super::{ChartPoint, Claims, Coverage, Domain, Layout, Mapping, MappingInfo, Step};
+use super::{ChartPoint, Coverage, Domain, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3, unit_in_plane};
 use std::f64::consts::FRAC_1_PI;
 
@@ -16,19 +16,9 @@ impl Mapping for Angular {
         about: "Angle from the centre as radius: the light probes' picture.",
         source: "azimuthal equidistant; Debevec's light probe",
         charts: &["disc"],
-        aspect: 1.0,
         domain: Domain::Disc,
         coverage: Coverage::SphereLessPoint([0.0, 0.0, -1.0]),
-        layout: Layout::Single,
-        claims: Claims {
-            equal_area: false,
-            conformal: false,
-            continuous: true,
-        },
-        weak_spots: &[],
-        conventions: &[],
-        errata: &[],
-        evaluators: &[],
+        ..MappingInfo::PLAIN
     };
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {

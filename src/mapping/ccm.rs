@@ -27,13 +27,6 @@ impl Mapping for Ccm {
         name: "Continuous cube map",
         about: "A cube folded onto the sphere: great circles part the faces, and every edge is divided by arc length.",
         source: "Grimm and Niebruegge, Continuous Cube Mapping",
-        charts: cube_face::FACES,
-        aspect: 1.0,
-        domain: cube_face::DOMAIN,
-        coverage: cube_face::COVERAGE,
-        layout: cube_face::LAYOUT,
-        claims: cube_face::CLAIMS,
-        weak_spots: &[],
         conventions: &[
             Convention {
                 id: "paper",
@@ -69,6 +62,7 @@ impl Mapping for Ccm {
             about: "Appendix A word for word in f32: six rounded dot products, ceil, asin; has holes where ceil(-1) is taken as true",
             forward: paper::shader,
         }],
+        ..cube_face::FAMILY
     };
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {

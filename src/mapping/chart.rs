@@ -120,6 +120,29 @@ pub struct MappingInfo {
 }
 
 impl MappingInfo {
+    /// What most mappings have in common: one square chart for the whole sphere, and nothing promised. A mapping names what
+    /// differs.
+    pub const PLAIN: Self = Self {
+        id: "",
+        name: "",
+        about: "",
+        source: "",
+        charts: &["all"],
+        aspect: 1.0,
+        domain: Domain::Square,
+        coverage: Coverage::Sphere,
+        layout: Layout::Single,
+        claims: Claims {
+            equal_area: false,
+            conformal: false,
+            continuous: true,
+        },
+        weak_spots: &[],
+        conventions: &[],
+        errata: &[],
+        evaluators: &[],
+    };
+
     /// Number of charts.
     pub const fn chart_count(&self) -> u32 {
         self.charts.len() as u32

@@ -13,13 +13,6 @@ impl Mapping for Cube {
         name: "Cube map",
         about: "Six flat pictures: one division, hardware everywhere, 5.2 times the solid angle at a face's centre as at its corner.",
         source: "Greene 1986; the table of OpenGL, D3D, Vulkan and WebGPU",
-        charts: cube_face::FACES,
-        aspect: 1.0,
-        domain: cube_face::DOMAIN,
-        coverage: cube_face::COVERAGE,
-        layout: cube_face::LAYOUT,
-        claims: cube_face::CLAIMS,
-        weak_spots: &[],
         conventions: &[Convention {
             id: "lower-left",
             about: "the encyclopaedia article: the same vectors, rows counted from below, v' = 1 - v",
@@ -27,8 +20,7 @@ impl Mapping for Cube {
             forward: (lower_left, lower_left),
             inverse: Some((lower_left_inverse, lower_left_inverse)),
         }],
-        errata: &[],
-        evaluators: &[],
+        ..cube_face::FAMILY
     };
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {

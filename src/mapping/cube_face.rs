@@ -6,23 +6,18 @@
 //! Faces are chosen by comparing the raw components: comparisons are exact in every language and on every adapter, while
 //! rounded dot products leave holes.
 
-use super::{ChartPoint, Claims, Coverage, Domain, Layout, Step};
+use super::{ChartPoint, Layout, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
 /// Names of the six charts.
 pub const FACES: &[&str] = &["+x", "-x", "+y", "-y", "+z", "-z"];
 
-/// What every member of the family shares.
-pub const LAYOUT: Layout = Layout::Cross;
-/// Every direction meets a face.
-pub const COVERAGE: Coverage = Coverage::Sphere;
-/// Faces are full squares.
-pub const DOMAIN: Domain = Domain::Square;
-/// Each edge is divided alike from both sides as long as the warp is the same on every face.
-pub const CLAIMS: Claims = Claims {
-    equal_area: false,
-    conformal: false,
-    continuous: true,
+/// What every member of the family has in common: six full squares, each edge divided alike from both sides as long as
+/// the warp is the same on every face.
+pub const FAMILY: MappingInfo = MappingInfo {
+    charts: FACES,
+    layout: Layout::Cross,
+    ..MappingInfo::PLAIN
 };
 
 /// The face of the largest |component|; on ties z wins over y over x (the rule that Vulkan recommends).

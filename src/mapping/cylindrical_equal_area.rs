@@ -1,6 +1,6 @@
 //! Cylindrical equal-area (Lambert): longitude to the right, height downwards. 4 pi sr per unit of chart area.
 
-use super::{ChartPoint, Claims, Coverage, Domain, Layout, Mapping, MappingInfo, Step, WeakSpot};
+use super::{ChartPoint, Claims, Mapping, MappingInfo, Step, WeakSpot};
 use crate::math::{Real, Vec3};
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -13,15 +13,10 @@ impl Mapping for CylindricalEqualArea {
         name: "Cylindrical equal-area",
         about: "The sphere's shadow on a cylinder around it: every texel the same solid angle, poles squeezed flat.",
         source: "Lambert 1772",
-        charts: &["all"],
         aspect: PI,
-        domain: Domain::Square,
-        coverage: Coverage::Sphere,
-        layout: Layout::Single,
         claims: Claims {
             equal_area: true,
-            conformal: false,
-            continuous: true,
+            ..MappingInfo::PLAIN.claims
         },
         weak_spots: &[WeakSpot {
             dir: [0.0, -1.0, 0.0],
@@ -30,9 +25,7 @@ impl Mapping for CylindricalEqualArea {
             outside_rad: 1.5e-6,
             reason: "v is flat at the poles, and near v = 1 half of the last digit of v is worth 6e-8 rad over the angle from the pole",
         }],
-        conventions: &[],
-        errata: &[],
-        evaluators: &[],
+        ..MappingInfo::PLAIN
     };
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {

@@ -14,16 +14,7 @@ impl Mapping for Eac {
         name: "Equi-angular cube",
         about: "A cube whose faces are divided by angle: areas differ by 1.41 only.",
         source: "the tangent adjustment of the survey literature; EAC of 360-degree video",
-        charts: cube_face::FACES,
-        aspect: 1.0,
-        domain: cube_face::DOMAIN,
-        coverage: cube_face::COVERAGE,
-        layout: cube_face::LAYOUT,
-        claims: cube_face::CLAIMS,
-        weak_spots: &[],
-        conventions: &[],
-        errata: &[],
-        evaluators: &[],
+        ..cube_face::FAMILY
     };
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {

@@ -2,9 +2,7 @@
 //!
 //! The centre of the picture looks along +z, +x lies to the right, +y is up. Grimm and Niebruegge, equations 1 to 4.
 
-use super::{
-    ChartPoint, Claims, Convention, Coverage, Domain, Erratum, Layout, Mapping, MappingInfo, Step,
-};
+use super::{ChartPoint, Convention, Erratum, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 use std::f64::consts::FRAC_1_PI;
 
@@ -17,17 +15,7 @@ impl Mapping for Latlong {
         name: "Latlong",
         about: "Longitude and latitude as a picture: simple, but the poles are stretched over a whole row.",
         source: "equirectangular; Grimm and Niebruegge, eq. 1-4",
-        charts: &["all"],
         aspect: 2.0,
-        domain: Domain::Square,
-        coverage: Coverage::Sphere,
-        layout: Layout::Single,
-        claims: Claims {
-            equal_area: false,
-            conformal: false,
-            continuous: true,
-        },
-        weak_spots: &[],
         conventions: &[Convention {
             id: "grimm",
             about: "z up, longitude from +x: u = frac(theta/2pi), v = phi/pi with theta = atan2(Ry, Rx), phi = acos(Rz/|R|)",
@@ -54,7 +42,7 @@ impl Mapping for Latlong {
                 values: |dir| grimm(dir).map(|p| (0.5 + p.v, p.v)),
             },
         ],
-        evaluators: &[],
+        ..MappingInfo::PLAIN
     };
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {

@@ -4,9 +4,7 @@
 //! that hemisphere only. It is Hoff's sphere map if the vector put in is the normal instead of the direction.
 
 use super::chart::height_squared;
-use super::{
-    ChartPoint, Claims, Convention, Coverage, Domain, Layout, Mapping, MappingInfo, Step, WeakSpot,
-};
+use super::{ChartPoint, Convention, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot};
 use crate::math::{Real, Vec3};
 
 /// See the [module](self).
@@ -19,15 +17,8 @@ impl Mapping for Matcap {
         about: "x and y as they are: the cheapest map, and half the world is missing. The half behind the viewer is seen as in a mirror.",
         source: "simple sphere map; Scali, Cubemaps",
         charts: &["disc"],
-        aspect: 1.0,
         domain: Domain::Disc,
         coverage: Coverage::Hemisphere([0.0, 0.0, -1.0]),
-        layout: Layout::Single,
-        claims: Claims {
-            equal_area: false,
-            conformal: false,
-            continuous: true,
-        },
         weak_spots: &[WeakSpot {
             dir: [0.0, 0.0, 1.0],
             great_circle: true,
@@ -42,8 +33,7 @@ impl Mapping for Matcap {
             forward: (scali, scali),
             inverse: Some((scali_inverse, scali_inverse)),
         }],
-        errata: &[],
-        evaluators: &[],
+        ..MappingInfo::PLAIN
     };
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {

@@ -2,7 +2,7 @@
 //!
 //! The centre of the square is +y, the four corners are -y, the edges' middles +-x and +-z.
 
-use super::{ChartPoint, Claims, Coverage, Domain, Layout, Mapping, MappingInfo, Step};
+use super::{ChartPoint, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
 /// See the [module](self).
@@ -15,19 +15,7 @@ impl Mapping for Octahedral {
         about: "One square without a trigonometric function: the lower half is folded out into the corners.",
         source: "Engelhardt and Dachsbacher 2008",
         charts: &["square"],
-        aspect: 1.0,
-        domain: Domain::Square,
-        coverage: Coverage::Sphere,
-        layout: Layout::Single,
-        claims: Claims {
-            equal_area: false,
-            conformal: false,
-            continuous: true,
-        },
-        weak_spots: &[],
-        conventions: &[],
-        errata: &[],
-        evaluators: &[],
+        ..MappingInfo::PLAIN
     };
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {

@@ -3,7 +3,7 @@
 //! Each octant's triangle is mapped with equal area: 4 pi sr per unit of chart area everywhere.
 
 use super::octahedral::fold;
-use super::{ChartPoint, Claims, Coverage, Domain, Layout, Mapping, MappingInfo, Step};
+use super::{ChartPoint, Claims, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 use std::f64::consts::FRAC_1_PI;
 
@@ -17,19 +17,11 @@ impl Mapping for OctahedralEqualArea {
         about: "The octahedral square with the same solid angle in every texel.",
         source: "Clarberg 2008; pbrt-v4",
         charts: &["square"],
-        aspect: 1.0,
-        domain: Domain::Square,
-        coverage: Coverage::Sphere,
-        layout: Layout::Single,
         claims: Claims {
             equal_area: true,
-            conformal: false,
-            continuous: true,
+            ..MappingInfo::PLAIN.claims
         },
-        weak_spots: &[],
-        conventions: &[],
-        errata: &[],
-        evaluators: &[],
+        ..MappingInfo::PLAIN
     };
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {

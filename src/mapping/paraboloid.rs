@@ -2,7 +2,7 @@
 //!
 //! Chart 0 looks along +z, chart 1 along -z; both are what an observer inside sees. Exactly conformal, area ratio 4.
 
-use super::{ChartPoint, Claims, Coverage, Domain, Layout, Mapping, MappingInfo, Step};
+use super::{ChartPoint, Claims, Domain, Layout, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
 /// See the [module](self).
@@ -15,19 +15,13 @@ impl Mapping for Paraboloid {
         about: "Two discs, one for each half of the world: circles stay circles, only products and one quotient.",
         source: "Heidrich and Seidel 1998",
         charts: &["front", "back"],
-        aspect: 1.0,
         domain: Domain::Disc,
-        coverage: Coverage::Sphere,
         layout: Layout::Pair,
         claims: Claims {
-            equal_area: false,
             conformal: true,
-            continuous: true,
+            ..MappingInfo::PLAIN.claims
         },
-        weak_spots: &[],
-        conventions: &[],
-        errata: &[],
-        evaluators: &[],
+        ..MappingInfo::PLAIN
     };
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {

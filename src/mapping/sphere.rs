@@ -5,7 +5,7 @@
 
 use super::chart::height_squared;
 use super::{
-    ChartPoint, Claims, Convention, Coverage, Domain, Layout, Mapping, MappingInfo, Step, WeakSpot,
+    ChartPoint, Claims, Convention, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot,
 };
 use crate::math::{Real, Vec3};
 
@@ -19,14 +19,11 @@ impl Mapping for Sphere {
         about: "A mirror ball seen from far away: one picture, equal area, torn apart at its rim. As in any mirror, writing is reversed.",
         source: "OpenGL sphere map; Hoff 1998",
         charts: &["ball"],
-        aspect: 1.0,
         domain: Domain::Disc,
         coverage: Coverage::SphereLessPoint([0.0, 0.0, 1.0]),
-        layout: Layout::Single,
         claims: Claims {
             equal_area: true,
-            conformal: false,
-            continuous: true,
+            ..MappingInfo::PLAIN.claims
         },
         weak_spots: &[WeakSpot {
             dir: [0.0, 0.0, 1.0],
@@ -42,8 +39,7 @@ impl Mapping for Sphere {
             forward: (hoff, hoff),
             inverse: Some((hoff_inverse, hoff_inverse)),
         }],
-        errata: &[],
-        evaluators: &[],
+        ..MappingInfo::PLAIN
     };
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
