@@ -5,7 +5,7 @@ use std::io::Write;
 use serde::Serialize;
 
 use super::{CliError, DONE};
-use crate::mapping::{Claims, Domain, Layout, MappingId, SHARED_EVALUATORS};
+use crate::mapping::{Claims, Domain, Layout, MappingId, SHARED_EVALUATORS, WeakSpot};
 
 /// Options of `sixfold maps`.
 #[derive(Debug, clap::Args)]
@@ -30,6 +30,7 @@ struct Entry {
     claims: Claims,
     conventions: Vec<Convention>,
     evaluators: Vec<Evaluator>,
+    weak_spots: &'static [WeakSpot],
     source: &'static str,
 }
 
@@ -74,6 +75,7 @@ fn entry(map: MappingId) -> Entry {
         claims: info.claims,
         conventions: conventions.collect(),
         evaluators: shared.chain(own).collect(),
+        weak_spots: info.weak_spots,
         source: info.source,
     }
 }

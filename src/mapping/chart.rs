@@ -242,7 +242,7 @@ pub struct Claims {
 }
 
 /// A direction around which the map is so flat that f32 coordinates cannot tell directions apart.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WeakSpot {
     /// Centre of the zone; with `great_circle` the pole of the circle.
     pub dir: [f64; 3],
