@@ -131,12 +131,16 @@ impl Explorer {
             || !self.pictures.is_empty()
     }
 
-    /// Shows surroundings that are there already, every map at once from now on: for pictures without a window.
+    /// Shows surroundings that are there already, without a job; `complete` asks for every map at once from now on.
     ///
     /// # Errors
     /// When the device cannot hold them.
-    pub(super) fn show_now(&mut self, surroundings: Surroundings) -> Result<(), String> {
-        self.complete = true;
+    pub(super) fn show_now(
+        &mut self,
+        surroundings: Surroundings,
+        complete: bool,
+    ) -> Result<(), String> {
+        self.complete = complete;
         self.install(Ready::new(&self.gpu, surroundings)?);
         Ok(())
     }

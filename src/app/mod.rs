@@ -19,6 +19,7 @@ mod keys;
 mod map_panel;
 mod marks;
 pub mod model;
+pub mod offscreen;
 pub mod panel_view;
 pub mod panes;
 pub mod picture;

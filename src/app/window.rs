@@ -29,6 +29,13 @@ pub enum RunError {
 /// # Errors
 /// See [`RunError`].
 pub fn run(file: Option<&Path>) -> Result<(), RunError> {
+    if cfg!(target_os = "linux") {
+        let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+        if !(is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") || is_set("WAYLAND_SOCKET")) {
+            let why = "there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set";
+            return Err(RunError::Window(why.to_owned()));
+        }
+    }
     let state = match file {
         Some(path) => files::open_scene(path).map_err(RunError::Scene)?,
         None => AppState::default(),
