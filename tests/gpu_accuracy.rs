@@ -3,6 +3,7 @@
 //! Where f32 coordinates can tell directions apart, the angle is held. In a mapping's weak spots they cannot: there the
 //! angle is held against the reach of a chart point, what the last digit of its coordinates is worth.
 
+#![cfg(feature = "explorer")]
 #![allow(
     clippy::unwrap_used,
     reason = "a test's helpers say what they expect too"

@@ -1,6 +1,7 @@
 //! Keeps WGSL and Rust together, without a GPU: every pass is valid, says the same numbers, and leaves the built-in inverse
 //! trigonometric functions alone.
 
+#![cfg(feature = "explorer")]
 #![allow(
     clippy::unwrap_used,
     reason = "a test's helpers say what they expect too"

@@ -1,7 +1,8 @@
 //! A real window on a virtual screen: it opens, the probe is dragged, the picture changes, a still window draws nothing,
 //! and it closes with status 0.
 
-#![cfg(all(feature = "explorer", target_os = "linux"))]
+#![cfg(feature = "explorer")]
+#![cfg(target_os = "linux")]
 #![expect(
     clippy::unwrap_used,
     clippy::expect_used,
