@@ -126,7 +126,7 @@ fn the_same_scene_gives_the_same_bytes_from_the_window_and_from_the_command_line
         ..state()
     };
     let scene = folder.path().join("scene.json");
-    std::fs::write(&scene, state.to_json()).unwrap();
+    std::fs::write(&scene, state.to_json().unwrap()).unwrap();
     let gpu = Gpu::headless().unwrap();
     for (name, what) in [
         ("window", What::Window),

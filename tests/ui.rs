@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, HarnessBuilder};
 use sixfold::app::action::Action;
+use sixfold::app::arrangement::Pane;
 use sixfold::app::command::Command;
 use sixfold::app::state::AppState;
 use sixfold::app::{Lost, Window};
@@ -27,16 +28,20 @@ fn open(state: AppState) -> Ui {
 }
 
 fn open_sized(state: AppState, width: f32, height: f32) -> Ui {
+    let mut ui = open_unsettled(state, width, height, Lost::default());
+    settle(&mut ui);
+    ui
+}
+
+fn open_unsettled(state: AppState, width: f32, height: f32, lost: Lost) -> Ui {
     let mut setup = egui_kittest::wgpu::default_wgpu_setup();
     if let egui_wgpu::WgpuSetup::CreateNew(new) = &mut setup {
         new.device_descriptor = std::sync::Arc::new(context::device_descriptor);
     }
-    let mut ui = HarnessBuilder::default()
+    HarnessBuilder::default()
         .with_size([width, height])
         .wgpu_setup(setup)
-        .build_eframe(|creation| Window::new(creation, state, Lost::default()).unwrap());
-    settle(&mut ui);
-    ui
+        .build_eframe(|creation| Window::new(creation, state, lost).unwrap())
 }
 
 /// Small maps: what is tested here does not depend on their size.
@@ -348,11 +353,14 @@ fn controls_are_found_by_their_labels_and_do_what_they_say() {
 }
 
 #[test]
-fn a_lost_device_ends_in_a_message() {
-    let mut ui = open(small());
+fn a_lost_device_ends_in_a_message_and_a_saved_scene() {
+    let lost = Lost::default();
+    let mut ui = open_unsettled(small(), 1280.0, 800.0, lost.clone());
+    settle(&mut ui);
+    ui.run_steps(2);
+    assert!(lost.lock().unwrap().is_none());
     ui.state().explorer().gpu().device.destroy();
-    let start = Instant::now();
-    while !ui.state().explorer().is_lost() && start.elapsed() < Duration::from_secs(10) {
+    for _ in 0..1000 {
         // The device tells of its end when it is asked.
         drop(
             ui.state()
@@ -361,14 +369,113 @@ fn a_lost_device_ends_in_a_message() {
                 .device
                 .poll(wgpu::PollType::Poll),
         );
+        if ui.state().explorer().is_lost() {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(5));
     }
-    assert!(ui.state().explorer().is_lost());
-    ui.run_steps(3);
-    let rescued = ui.state().explorer().rescue();
-    let path = rescued.rsplit(' ').next().unwrap();
-    let text = std::fs::read_to_string(path).unwrap();
+    ui.step();
+    let why = lost.lock().unwrap().clone().unwrap();
+    let path = why
+        .strip_prefix("the scene is in ")
+        .unwrap_or_else(|| panic!("{why}"));
+    let saved = AppState::from_json(&std::fs::read_to_string(path).unwrap()).unwrap();
+    std::fs::remove_file(path).unwrap();
+    let shown = ui.state().explorer().state();
+    assert_eq!((saved.probe, saved.mapping), (shown.probe, shown.mapping));
+}
+
+#[test]
+fn a_load_that_is_overtaken_or_cancelled_leaves_state_and_picture_alike() {
+    let mut ui = open(small());
+    let ctx = ui.ctx.clone();
+    let mut tell = |ui: &mut Ui, command: Command| ui.state_mut().explorer_mut().run(&ctx, command);
+    let shown = |ui: &Ui| ui.state().explorer().state().environment.clone();
+    tell(&mut ui, Command::LoadEnvironment(Environment::Graticule));
+    settle(&mut ui);
+    assert_eq!(shown(&ui), Environment::Graticule);
+    // Back to the first one, whose load begins, and on again before it ends.
+    tell(&mut ui, Command::Undo);
+    tell(&mut ui, Command::Redo);
+    settle(&mut ui);
     assert_eq!(
-        AppState::from_json(&text).unwrap(),
-        *ui.state().explorer().state()
+        shown(&ui),
+        Environment::Graticule,
+        "an overtaken load was shown"
     );
+    // Begun and cancelled by its button.
+    tell(&mut ui, Command::Undo);
+    ui.step();
+    let cancel = ui.query_by_label("Cancel").map(|button| button.click());
+    assert!(cancel.is_some(), "no job was shown");
+    ui.step();
+    settle(&mut ui);
+    assert_eq!(
+        shown(&ui),
+        Environment::Graticule,
+        "the state names what is not shown"
+    );
+}
+
+#[test]
+fn undo_takes_back_changes_only_and_a_hidden_panel_is_not_maximised() {
+    let mut ui = open(small());
+    run(&mut ui, Action::SetMapping(MappingId::Cube));
+    run(&mut ui, Command::Undo);
+    // Nothing changes here, so what was undone can still be made again.
+    run(&mut ui, Action::SetDivider(f32::NAN));
+    run(&mut ui, Action::FollowPointer(true));
+    run(&mut ui, Command::Redo);
+    assert_eq!(ui.state().explorer().state().mapping, MappingId::Cube);
+    let pane = Pane::Map(MappingId::Latlong);
+    run(&mut ui, Action::SetMaximised(Some(pane)));
+    assert_eq!(ui.state().explorer().state().maximised, Some(pane));
+    run(&mut ui, Action::SetPanelOpen(MappingId::Latlong, false));
+    assert_eq!(ui.state().explorer().state().maximised, None);
+    ui.get_by_label("The viewport");
+}
+
+#[test]
+fn hostile_scenes_open_mended_or_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut ui = open(small());
+    for (name, text) in [
+        (
+            "nul.json",
+            r#"{"schema":1,"environment":{"file":"a\u0000b.hdr"}}"#,
+        ),
+        (
+            "columns.json",
+            r#"{"schema":1,"arrangement":{"grid":{"columns":18446744073709551615,"children":[{"pane":"viewport"}]}}}"#,
+        ),
+        (
+            "shares.json",
+            r#"{"schema":1,"arrangement":{"row":[{"share":1e39,"content":{"pane":"viewport"}}]}}"#,
+        ),
+        (
+            "deep.json",
+            &format!(
+                "{{\"schema\":1,\"arrangement\":{}",
+                r#"{"tabs":{"active":9,"children":["#.repeat(400)
+            ),
+        ),
+    ] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        run(&mut ui, Command::Open(path));
+        settle(&mut ui);
+        ui.get_by_label("The viewport");
+    }
+    // A scene whose environment has no Unicode name cannot be text: that is said, and nothing is written.
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStrExt;
+        let name = std::ffi::OsStr::from_bytes(b"sky\xff.hdr");
+        let state = AppState {
+            environment: Environment::File(name.into()),
+            ..small()
+        };
+        let why = state.to_json().unwrap_err().to_string();
+        assert!(why.contains("rename") && !why.contains('\n'), "{why}");
+    }
 }

@@ -182,15 +182,14 @@ fn a_window_opens_follows_the_probe_rests_and_closes() {
     let (_server, display, connection) = screen();
     let explorer = Explorer::open(&connection, &display);
     // The panels are drawn: much of the screen differs from its first colour.
-    let mut colors = 0;
-    while colors < 500 {
+    wait_for("the first picture", || {
         let picture = explorer.settled();
         let pixels = (0..800).flat_map(|y| (0..1280).map(move |x| (x, y)));
         let seen: std::collections::HashSet<_> = pixels
             .map(|(x, y)| Explorer::pixel(&picture, x, y))
             .collect();
-        colors = seen.len();
-    }
+        (seen.len() > 500).then_some(())
+    });
     let before = explorer.settled();
     // Still: the status bar counts frames, so a single frame more would change the picture.
     std::thread::sleep(Duration::from_secs(10));

@@ -4,8 +4,9 @@ use crate::gpu::ToneCurve;
 use crate::imaging::Environment;
 use crate::mapping::{ChartPoint, MappingId};
 use crate::math::Vec3;
-use crate::scene::{Camera, Object};
+use crate::scene::Object;
 
+use super::arrangement::Pane;
 use super::probe;
 use super::state::{AppState, EyeRay, InspectorState, Overlays, PanelState, unit};
 
@@ -63,31 +64,30 @@ pub enum Action {
     SetPanelView(PanelState),
     /// What the inspector shows.
     SetInspector(InspectorState),
-    /// The tiling library's arrangement of the panels.
-    SetArrangement(Option<serde_json::Value>),
+    /// Show one pane alone, or all again.
+    SetMaximised(Option<Pane>),
     /// A whole other scene.
     Load(Box<AppState>),
 }
 
 impl Action {
-    /// Which actions one undo takes back together: a drag is many actions of one kind. `None` stands for itself.
-    pub fn merges_as(&self) -> Option<&'static str> {
+    /// Which actions one undo takes back together: a drag is many actions of one kind on one thing. `None` stands for itself.
+    pub fn merges_as(&self) -> Option<(&'static str, Option<MappingId>)> {
         match self {
-            Self::Orbit { .. } | Self::Zoom(_) => Some("camera"),
-            Self::SetDivider(_) => Some("divider"),
-            Self::SetExposure(_) => Some("exposure"),
-            Self::SetTexelBudget(_) => Some("texels"),
-            Self::SetProbe { .. } | Self::StepProbe { .. } => Some("probe"),
-            Self::SetPanelView(_) => Some("panel"),
+            Self::Orbit { .. } | Self::Zoom(_) => Some(("camera", None)),
+            Self::SetDivider(_) => Some(("divider", None)),
+            Self::SetExposure(_) => Some(("exposure", None)),
+            Self::SetTexelBudget(_) => Some(("texels", None)),
+            Self::SetPanelView(view) => Some(("panel", Some(view.mapping))),
             _ => None,
         }
     }
 
-    /// True for what undo leaves alone: the probe's moves and the arrangement would drown everything else.
+    /// True for what undo leaves alone: the probe's moves would drown everything else.
     pub fn is_transient(&self) -> bool {
         matches!(
             self,
-            Self::SetProbe { .. } | Self::StepProbe { .. } | Self::SetArrangement(_)
+            Self::SetProbe { .. } | Self::StepProbe { .. } | Self::FollowPointer(_)
         )
     }
 }
@@ -147,6 +147,7 @@ pub fn apply(state: &mut AppState, action: Action) {
             if let Some(panel) = state.panel_mut(mapping) {
                 panel.open = open;
             }
+            state.show_alone(state.maximised);
         }
         Action::SetPanelView(view) => {
             if let Some(panel) = state.panel_mut(view.mapping) {
@@ -154,7 +155,7 @@ pub fn apply(state: &mut AppState, action: Action) {
             }
         }
         Action::SetInspector(inspector) => state.inspector = inspector,
-        Action::SetArrangement(arrangement) => state.arrangement = arrangement,
+        Action::SetMaximised(pane) => state.show_alone(pane),
         Action::Load(loaded) => *state = loaded.sanitized(),
     }
 }
@@ -166,11 +167,6 @@ pub fn probe_at(mapping: MappingId, point: ChartPoint<f64>) -> Option<Action> {
         dir: [x, y, z].map(|c| c as f32),
         eye_ray: None,
     })
-}
-
-/// The camera's default view for a state, used by reset buttons.
-pub fn default_camera() -> Camera {
-    AppState::default().camera
 }
 
 #[cfg(test)]

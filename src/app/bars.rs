@@ -4,7 +4,7 @@ use egui::{ProgressBar, RichText, Ui};
 
 use super::action::Action;
 use super::command::Command;
-use super::dialogs::{Dialog, PictureDialog};
+use super::dialogs::{Dialog, PictureDialog, SaveDialog};
 use super::model::Model;
 
 /// The menus. Dialogs are opened by setting `dialog`.
@@ -16,7 +16,7 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
                 ui.close();
             }
             if ui.button("Save the scene …   Ctrl+S").clicked() {
-                *dialog = Some(Dialog::SaveScene("scene.sixfold.json".to_owned()));
+                *dialog = Some(Dialog::SaveScene(SaveDialog::default()));
                 ui.close();
             }
             if ui.button("Save a picture …   Ctrl+E").clicked() {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::action::Action;
+use super::dialogs::Dialog;
 use super::picture::PictureRequest;
 use crate::imaging::Environment;
 
@@ -17,20 +18,21 @@ pub enum Command {
     Redo,
     /// Load surroundings in a job; the state changes when they are there.
     LoadEnvironment(Environment),
-    /// Ask for a file to open, in a dialog of the system.
-    AskOpen,
+    /// Show a dialog in the window.
+    ShowDialog(Dialog),
+    /// Ask for the path of the dialog that is shown, in a dialog of the system.
+    Browse,
     /// Open a scene, a picture that holds a scene, or an environment.
     Open(PathBuf),
-    /// Ask where to save the scene, in a dialog of the system.
-    AskSaveScene,
     /// Save the scene.
-    SaveScene(PathBuf),
+    SaveScene {
+        /// The file.
+        path: PathBuf,
+        /// Replace it if it is there.
+        force: bool,
+    },
     /// Draw a picture in a job, for a file or the clipboard.
     MakePicture(PictureRequest),
-    /// Ask for the file of the picture dialog, in a dialog of the system.
-    AskPicturePath,
-    /// Show or hide the picture dialog.
-    ShowPictureDialog(bool),
     /// Stop a running job.
     Cancel(u64),
     /// Take a message away.
@@ -39,8 +41,6 @@ pub enum Command {
     CopyText(String),
     /// Every panel back to its first place.
     ResetArrangement,
-    /// Show one panel alone, or all again.
-    Maximise(Option<super::panes::Pane>),
     /// Close the window.
     Quit,
 }

@@ -4,6 +4,7 @@ use egui::{ComboBox, RichText, Slider, Ui};
 
 use super::action::Action;
 use super::command::Command;
+use super::dialogs::Dialog;
 use super::model::Model;
 use super::state::{EXPOSURE_RANGE, TEXEL_BUDGET_RANGE};
 use crate::gpu::ToneCurve;
@@ -16,27 +17,27 @@ pub fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
     egui::ScrollArea::vertical()
         .auto_shrink([false, false])
         .show(ui, |ui| {
-            heading(ui, "Mapping");
+            heading_ui(ui, "Mapping");
             mapping_ui(ui, model);
-            heading(ui, "Scene");
+            heading_ui(ui, "Scene");
             scene_ui(ui, model);
-            heading(ui, "Light");
+            heading_ui(ui, "Light");
             light_ui(ui, model);
-            heading(ui, "Overlays");
+            heading_ui(ui, "Overlays");
             overlays_ui(ui, model);
-            heading(ui, "Panels");
+            heading_ui(ui, "Panels");
             panels_ui(ui, model);
         });
 }
 
-fn heading(ui: &mut Ui, title: &str) {
+fn heading_ui(ui: &mut Ui, title: &str) {
     ui.add_space(4.0);
     ui.label(RichText::new(title).strong());
     ui.separator();
 }
 
 /// A labelled list to choose from.
-fn choose<T: PartialEq + Clone>(
+fn choose_ui<T: PartialEq + Clone>(
     ui: &mut Ui,
     label: &str,
     now: &T,
@@ -63,7 +64,7 @@ fn mapping_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let state = model.state;
     let all = MappingId::ALL.iter().copied();
     let name = |m: &MappingId| m.info().name.to_owned();
-    if let Some(mapping) = choose(
+    if let Some(mapping) = choose_ui(
         ui,
         "looked up by object and sky",
         &state.mapping,
@@ -74,7 +75,7 @@ fn mapping_ui(ui: &mut Ui, model: &mut Model<'_>) {
     }
     let others = std::iter::once(None).chain(all.filter(|m| *m != state.mapping).map(Some));
     let name = |m: &Option<MappingId>| m.map_or("none", |m| m.info().name).to_owned();
-    if let Some(compare) = choose(
+    if let Some(compare) = choose_ui(
         ui,
         "compared, right of the divider",
         &state.compare,
@@ -112,16 +113,16 @@ fn scene_ui(ui: &mut Ui, model: &mut Model<'_>) {
     if let Environment::File(_) = now {
         options.push(now.clone());
     }
-    if let Some(environment) = choose(ui, "environment", now, options, Environment::name) {
+    if let Some(environment) = choose_ui(ui, "environment", now, options, Environment::name) {
         model.push(Command::LoadEnvironment(environment));
     }
     if ui.button("Open a file …").clicked() {
-        model.push(Command::AskOpen);
+        model.push(Command::ShowDialog(Dialog::Open(String::new())));
     }
     if let Some(text) = model.surroundings.and_then(|s| s.bad_texels().summary()) {
         ui.label(RichText::new(text).small().color(super::theme::TEXEL));
     }
-    let object = choose(ui, "mirror object", &state.object, Object::ALL, |o| {
+    let object = choose_ui(ui, "mirror object", &state.object, Object::ALL, |o| {
         o.name().to_owned()
     });
     if let Some(object) = object {
@@ -145,7 +146,7 @@ fn light_ui(ui: &mut Ui, model: &mut Model<'_>) {
     if slider.labelled_by(label.id).changed() {
         model.push(Action::SetExposure(ev));
     }
-    let tone = choose(ui, "tone curve", &state.tone, ToneCurve::ALL, |t| {
+    let tone = choose_ui(ui, "tone curve", &state.tone, ToneCurve::ALL, |t| {
         t.name().to_owned()
     });
     if let Some(tone) = tone {

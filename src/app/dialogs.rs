@@ -14,10 +14,50 @@ use crate::mapping::MappingId;
 pub enum Dialog {
     /// A path to open.
     Open(String),
-    /// A path to save the scene under.
-    SaveScene(String),
+    /// Where to save the scene.
+    SaveScene(SaveDialog),
     /// What picture, how large, where to.
     Picture(PictureDialog),
+}
+
+/// The fields of the dialog that saves the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SaveDialog {
+    /// The file.
+    pub path: String,
+    /// Replace the file if it is there.
+    pub force: bool,
+}
+
+impl Default for SaveDialog {
+    fn default() -> Self {
+        Self {
+            path: "scene.sixfold.json".to_owned(),
+            force: false,
+        }
+    }
+}
+
+impl Dialog {
+    /// The path that is typed.
+    pub fn path_mut(&mut self) -> &mut String {
+        match self {
+            Self::Open(path) => path,
+            Self::SaveScene(fields) => &mut fields.path,
+            Self::Picture(fields) => &mut fields.path,
+        }
+    }
+
+    /// The same dialog with the path that was chosen in the system's dialog, which has asked about replacing already.
+    pub fn with_chosen(mut self, path: &std::path::Path) -> Self {
+        *self.path_mut() = path.display().to_string();
+        match &mut self {
+            Self::Open(_) => {}
+            Self::SaveScene(fields) => fields.force = true,
+            Self::Picture(fields) => fields.force = true,
+        }
+        self
+    }
 }
 
 /// The fields of the picture dialog.
@@ -55,7 +95,7 @@ pub fn dialog_ui(ctx: &egui::Context, model: &mut Model<'_>, dialog: &mut Option
         ui.set_width(430.0);
         close = match open {
             Dialog::Open(path) => open_ui(ui, model, path),
-            Dialog::SaveScene(path) => save_ui(ui, model, path),
+            Dialog::SaveScene(fields) => save_ui(ui, model, fields),
             Dialog::Picture(fields) => picture_ui(ui, model, fields),
         };
     });
@@ -81,26 +121,31 @@ fn open_ui(ui: &mut Ui, model: &mut Model<'_>, path: &mut String) -> bool {
     ui.heading("Open");
     ui.label("An environment (latlong HDR, EXR, PNG or JPEG), a scene, or a picture that Sixfold saved. Dropping the file onto the window does the same.");
     if path_ui(ui, path, "file") {
-        model.push(Command::AskOpen);
+        model.push(Command::Browse);
     }
-    buttons(ui, "Open", !path.trim().is_empty(), || {
+    buttons_ui(ui, "Open", !path.trim().is_empty(), || {
         model.push(Command::Open(PathBuf::from(path.trim())));
     })
 }
 
-fn save_ui(ui: &mut Ui, model: &mut Model<'_>, path: &mut String) -> bool {
+fn save_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut SaveDialog) -> bool {
     ui.heading("Save the scene");
     ui.label("Everything that the window shows, as a small text file; an environment's file is named, not copied.");
-    if path_ui(ui, path, "file") {
-        model.push(Command::AskSaveScene);
+    if path_ui(ui, &mut fields.path, "file") {
+        model.push(Command::Browse);
     }
-    buttons(ui, "Save", !path.trim().is_empty(), || {
-        model.push(Command::SaveScene(PathBuf::from(path.trim())));
+    ui.checkbox(&mut fields.force, "replace the file if it exists");
+    let path = fields.path.trim();
+    buttons_ui(ui, "Save", !path.is_empty(), || {
+        model.push(Command::SaveScene {
+            path: PathBuf::from(path),
+            force: fields.force,
+        });
     })
 }
 
 /// The last row: the deed and a way out; true when the dialog is done with.
-fn buttons(ui: &mut Ui, deed: &str, ready: bool, act: impl FnOnce()) -> bool {
+fn buttons_ui(ui: &mut Ui, deed: &str, ready: bool, act: impl FnOnce()) -> bool {
     ui.add_space(6.0);
     let mut done = false;
     ui.horizontal(|ui| {
@@ -140,7 +185,7 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
         ui.label(format!("pixels, at most {MAX_SIDE} a side"));
     });
     if path_ui(ui, &mut fields.path, "file") {
-        model.push(Command::AskPicturePath);
+        model.push(Command::Browse);
     }
     ui.checkbox(&mut fields.force, "replace the file if it exists");
     ui.add_space(6.0);
@@ -153,8 +198,10 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
             to,
         };
         let path = fields.path.trim();
-        if ui
-            .add_enabled(!path.is_empty(), egui::Button::new("Save"))
+        let is_png = path.to_ascii_lowercase().ends_with(".png");
+        let save = ui.add_enabled(is_png, egui::Button::new("Save"));
+        if save
+            .on_disabled_hover_text("The name must end in .png")
             .clicked()
         {
             let to = Destination::File {

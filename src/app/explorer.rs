@@ -2,13 +2,14 @@
 
 mod jobs;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::mutex::RwLock;
 use egui::{CentralPanel, Context, Panel, Ui};
 
 use super::action::{Action, apply};
+use super::arrangement::{Arrangement, Pane};
 use super::command::Command;
 use super::dialogs::{Dialog, dialog_ui};
 use super::files::Opened;
@@ -16,8 +17,8 @@ use super::frame::frame_of;
 use super::history::History;
 use super::job::Job;
 use super::model::{Message, Model, Surroundings};
-use super::panes::{self, Pane};
-use super::picture::{self, PictureRequest};
+use super::panes;
+use super::picture;
 use super::state::AppState;
 use super::texel_color::{TexelColor, TexelKey};
 use super::views::{ViewKey, Views};
@@ -25,7 +26,9 @@ use super::{bars, controls, inspector, keys};
 use crate::gpu::{Gpu, Renderer};
 use crate::scene::{Object, Target};
 
-use jobs::Ready;
+use super::objects::target_of;
+
+use jobs::{Errand, Ready};
 
 /// A dialog of the system that has not been answered: what it asks for, and the file when there is one.
 type Asked = (Dialog, Job<Option<PathBuf>>);
@@ -38,15 +41,15 @@ pub struct Explorer {
     renderer: Renderer,
     views: Views,
     tree: egui_tiles::Tree<Pane>,
-    target: (Object, Target),
+    target: (Object, Arc<Target>),
     surroundings: Option<Surroundings>,
     loading: Option<Job<Result<Ready, String>>>,
     opening: Option<Job<Result<Opened, String>>>,
-    pictures: Vec<(PictureRequest, Job<Result<picture::Picture, String>>)>,
+    /// Jobs that end in a message, and perhaps in a picture for the clipboard.
+    errands: Vec<Job<Result<Errand, String>>>,
     asked: Option<Asked>,
     messages: Vec<Message>,
     dialog: Option<Dialog>,
-    maximised: Option<Pane>,
     next_job: u64,
     frames: u64,
     plan: String,
@@ -69,16 +72,15 @@ impl Explorer {
             renderer: Renderer::new(gpu.clone()),
             views: Views::new(&gpu, painter),
             tree: panes::tree_of(&state),
-            target: (state.object, Target::new(state.object.mesh())),
+            target: (state.object, target_of(state.object)),
             history: History::default(),
             surroundings: None,
             loading: None,
             opening: None,
-            pictures: Vec::new(),
+            errands: Vec::new(),
             asked: None,
             messages: Vec::new(),
             dialog: None,
-            maximised: None,
             next_job: 1,
             frames: 0,
             plan: String::new(),
@@ -125,10 +127,7 @@ impl Explorer {
 
     /// True while a job runs or a map waits to be drawn.
     pub fn is_busy(&self) -> bool {
-        self.pending
-            || self.loading.is_some()
-            || self.opening.is_some()
-            || !self.pictures.is_empty()
+        self.pending || self.loading.is_some() || self.opening.is_some() || !self.errands.is_empty()
     }
 
     /// Shows surroundings that are there already, without a job; `complete` asks for every map at once from now on.
@@ -152,6 +151,9 @@ impl Explorer {
         }
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
         if let Some(file) = dropped.first() {
+            if dropped.len() > 1 {
+                self.tell(format!("Of {} files the first is opened", dropped.len()));
+            }
             self.run(ctx, Command::Open(file.path().to_owned()));
         }
         for command in keys::commands(ctx, &self.state, &mut self.dialog) {
@@ -226,7 +228,6 @@ impl Explorer {
             adapter: &adapter,
             jobs: &jobs,
             messages: &self.messages,
-            maximised: self.maximised,
             gpu: &self.gpu,
             views: &mut self.views,
             commands: Vec::new(),
@@ -296,25 +297,15 @@ impl Explorer {
                 }
             }
             Command::LoadEnvironment(environment) => self.load(ctx, environment),
-            Command::AskOpen => self.ask(ctx, Dialog::Open(String::new())),
-            Command::AskSaveScene => self.ask(ctx, Dialog::SaveScene(String::new())),
-            Command::AskPicturePath => {
-                if let Some(dialog @ Dialog::Picture(_)) = self.dialog.clone() {
+            Command::ShowDialog(dialog) => self.dialog = Some(dialog),
+            Command::Browse => {
+                if let Some(dialog) = self.dialog.clone() {
                     self.ask(ctx, dialog);
                 }
             }
             Command::Open(path) => self.open(ctx, path),
-            Command::SaveScene(path) => {
-                let text = self.state.to_json();
-                match crate::imaging::atomic::write_atomically(&path, false, text.as_bytes()) {
-                    Ok(()) => self.tell(format!("The scene is in {}", path.display())),
-                    Err(error) => self.fail(error.to_string()),
-                }
-            }
+            Command::SaveScene { path, force } => self.save_scene(ctx, path, force),
             Command::MakePicture(request) => self.make_picture(ctx, request),
-            Command::ShowPictureDialog(show) => {
-                self.dialog = show.then(|| Dialog::Picture(Default::default()));
-            }
             Command::Cancel(id) => self.cancel(id),
             Command::Dismiss(index) => {
                 if index < self.messages.len() {
@@ -323,11 +314,9 @@ impl Explorer {
             }
             Command::CopyText(text) => ctx.copy_text(text),
             Command::ResetArrangement => {
-                self.act(Action::SetArrangement(None));
-                self.maximised = None;
-                self.tree = panes::tree_of(&self.state);
+                self.act(Action::SetMaximised(None));
+                self.tree = panes::first_tree(&self.state);
             }
-            Command::Maximise(pane) => self.maximised = pane,
             Command::Quit => self.quit = true,
         }
     }
@@ -335,9 +324,21 @@ impl Explorer {
     /// Changes the state, remembering how to take it back.
     fn act(&mut self, action: Action) {
         let before = self.state.clone();
-        self.history.record(&before, &action);
-        apply(&mut self.state, action);
-        self.follow_state();
+        apply(&mut self.state, action.clone());
+        if before != self.state {
+            self.history.record(before, &action);
+            self.follow_state();
+        }
+    }
+
+    /// The scene as it is seen: with the surroundings that are there and the panes as they lie.
+    fn scene(&self) -> AppState {
+        let mut scene = self.state.clone();
+        if let Some(shown) = &self.surroundings {
+            scene.environment = shown.environment.clone();
+        }
+        scene.arrangement = Arrangement::of_tree(&self.tree);
+        scene
     }
 
     /// Another state altogether: its surroundings may have to be loaded.
@@ -349,14 +350,17 @@ impl Explorer {
             .surroundings
             .as_ref()
             .is_some_and(|s| s.environment == environment);
-        if !shown {
+        if shown {
+            // What was being loaded belongs to the state that was left.
+            self.loading = None;
+        } else {
             self.load(ctx, environment);
         }
     }
 
     fn follow_state(&mut self) {
         if self.target.0 != self.state.object {
-            self.target = (self.state.object, Target::new(self.state.object.mesh()));
+            self.target = (self.state.object, target_of(self.state.object));
         }
         panes::follow(&mut self.tree, &self.state);
     }
@@ -388,17 +392,13 @@ impl Explorer {
 
     /// Saves the scene where it is found again after the device was lost, and says where.
     pub fn rescue(&self) -> String {
-        let path = rescue_path();
-        match crate::imaging::atomic::write_atomically(&path, true, self.state.to_json().as_bytes())
-        {
+        let name = format!("sixfold-rescued-{}.json", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        match jobs::write_scene(&self.scene(), &path, true) {
             Ok(()) => format!("the scene is in {}", path.display()),
-            Err(error) => format!("the scene could not be saved: {error}"),
+            Err(why) => format!("the scene could not be saved: {why}"),
         }
     }
-}
-
-fn rescue_path() -> PathBuf {
-    Path::new(&std::env::temp_dir()).join("sixfold-rescued.json")
 }
 
 /// Everything in the window, from the borders inwards.

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use super::dialogs::Dialog;
+use super::dialogs::{Dialog, PictureDialog, SaveDialog};
 use super::state::AppState;
 use crate::imaging::{Environment, png_out};
 
@@ -19,31 +19,47 @@ pub enum Opened {
     Environment(Environment),
 }
 
-/// Looks into a file: a scene as text or inside a PNG, else an environment.
+/// Looks into a file: a scene as text or inside a PNG, else an environment. What the file holds decides, not its name.
 ///
 /// # Errors
 /// One line that says what is wrong with the file.
 pub fn open(path: &Path) -> Result<Opened, String> {
-    let extension = path
-        .extension()
-        .and_then(|e| e.to_str())
-        .unwrap_or("")
-        .to_ascii_lowercase();
     let scene = |text: &str| {
         AppState::from_json(text)
             .map(|state| Opened::Scene(Box::new(state)))
             .map_err(|error| format!("{error}: {}", path.display()))
     };
-    match extension.as_str() {
-        "json" | "sixfold" => scene(&read_text(path)?),
+    let failed =
+        |error: std::io::Error| format!("the file cannot be read ({error}): {}", path.display());
+    // A pipe would be waited for; a folder cannot be read.
+    if !std::fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(format!("this is not a file: {}", path.display()));
+    }
+    let mut start = Vec::new();
+    let file = std::fs::File::open(path).map_err(failed)?;
+    file.take(SNIFFED_BYTES)
+        .read_to_end(&mut start)
+        .map_err(failed)?;
+    if start.starts_with(b"\x89PNG") {
         // A PNG without a scene may still be an environment, and a damaged one is reported by whoever decodes it.
-        "png" => match png_out::read_scene(path) {
+        return match png_out::read_scene(path) {
             Ok(Some(text)) => scene(&text),
             _ => Ok(environment(path)),
-        },
-        _ => Ok(environment(path)),
+        };
+    }
+    let is_json = start.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{');
+    let says_json = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("json"));
+    if is_json || says_json {
+        scene(&read_text(path)?)
+    } else {
+        Ok(environment(path))
     }
 }
+
+/// Bytes from which the kind of a file is told.
+const SNIFFED_BYTES: u64 = 64;
 
 /// The scene in a file.
 ///
@@ -93,8 +109,10 @@ pub fn ask(dialog: &Dialog) -> Option<PathBuf> {
                 &["hdr", "exr", "png", "jpg", "jpeg", "json"],
             )
             .pick_file(),
-        Dialog::SaveScene(_) => files.set_file_name("scene.sixfold.json").save_file(),
-        Dialog::Picture(_) => files.set_file_name("sixfold.png").save_file(),
+        Dialog::SaveScene(_) => files.set_file_name(SaveDialog::default().path).save_file(),
+        Dialog::Picture(_) => files
+            .set_file_name(PictureDialog::default().path)
+            .save_file(),
     }
 }
 
@@ -109,11 +127,11 @@ mod tests {
             divider: 0.25,
             ..AppState::default()
         };
-        let text = folder.path().join("a.json");
-        std::fs::write(&text, state.to_json()).unwrap();
+        let text = folder.path().join("no extension");
+        std::fs::write(&text, state.to_json().unwrap()).unwrap();
         assert_eq!(open_scene(&text).unwrap(), state);
         let picture = folder.path().join("b.png");
-        let json = state.to_json();
+        let json = state.to_json().unwrap();
         let bytes = png_out::encode_png(1, 1, &[1, 2, 3, 255], Some(&json)).unwrap();
         std::fs::write(&picture, bytes).unwrap();
         assert_eq!(open_scene(&picture).unwrap(), state);
@@ -127,7 +145,9 @@ mod tests {
         let why = open(&bad).unwrap_err();
         assert!(why.contains("bad.json") && !why.contains('\n'), "{why}");
         assert!(open(&folder.path().join("missing.json")).is_err());
-        let other = open(&folder.path().join("sky.exr")).unwrap();
+        let sky = folder.path().join("sky.exr");
+        std::fs::write(&sky, b"v/1\x01").unwrap();
+        let other = open(&sky).unwrap();
         assert!(matches!(other, Opened::Environment(Environment::File(_))));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::action::Action;
 use super::state::AppState;
+use crate::mapping::MappingId;
 
 /// States kept; older ones are forgotten.
 const DEPTH: usize = 200;
@@ -9,20 +10,51 @@ const DEPTH: usize = 200;
 /// Earlier and later states.
 #[derive(Clone, Debug, Default)]
 pub struct History {
-    earlier: Vec<AppState>,
-    later: Vec<AppState>,
-    last_kind: Option<&'static str>,
+    earlier: Vec<Entry>,
+    later: Vec<Entry>,
+    last_kind: Option<Kind>,
+}
+
+type Kind = (&'static str, Option<MappingId>);
+
+/// A state to go back to.
+#[derive(Clone, Debug)]
+struct Entry {
+    state: AppState,
+    /// Between it and its neighbour lies another scene, so the probe goes back too.
+    is_whole: bool,
+}
+
+impl Entry {
+    /// The state to show after `now`: undo moves no probe, and no arrangement, within a scene.
+    fn after(self, now: &AppState) -> AppState {
+        if self.is_whole {
+            return self.state;
+        }
+        let same_object = self.state.object == now.object;
+        AppState {
+            probe: now.probe,
+            probe_follows: now.probe_follows,
+            // The ray that found the probe was mirrored by the object that is shown now.
+            eye_ray: now.eye_ray.filter(|_| same_object),
+            ..self.state
+        }
+    }
 }
 
 impl History {
-    /// Remembers `before`, the state that `action` is about to change. Actions of one kind in a row are taken back together.
-    pub fn record(&mut self, before: &AppState, action: &Action) {
+    /// Remembers `before`, the state that `action` has changed. Actions of one kind in a row are taken back together.
+    pub fn record(&mut self, before: AppState, action: &Action) {
         if action.is_transient() {
             return;
         }
         let kind = action.merges_as();
         if kind.is_none() || kind != self.last_kind {
-            self.earlier.push(before.clone());
+            let is_whole = matches!(action, Action::Load(_));
+            self.earlier.push(Entry {
+                state: before,
+                is_whole,
+            });
             if self.earlier.len() > DEPTH {
                 self.earlier.remove(0);
             }
@@ -36,20 +68,26 @@ impl History {
         self.last_kind = None;
     }
 
-    /// The state before, if there is one; the probe stays where it is.
+    /// The state before, if there is one.
     pub fn undo(&mut self, now: &AppState) -> Option<AppState> {
         let found = self.earlier.pop()?;
-        self.later.push(now.clone());
+        self.later.push(Entry {
+            state: now.clone(),
+            is_whole: found.is_whole,
+        });
         self.last_kind = None;
-        Some(with_probe_of(found, now))
+        Some(found.after(now))
     }
 
     /// The state that undo took back.
     pub fn redo(&mut self, now: &AppState) -> Option<AppState> {
         let found = self.later.pop()?;
-        self.earlier.push(now.clone());
+        self.earlier.push(Entry {
+            state: now.clone(),
+            is_whole: found.is_whole,
+        });
         self.last_kind = None;
-        Some(with_probe_of(found, now))
+        Some(found.after(now))
     }
 
     /// True when there is something to take back.
@@ -63,22 +101,15 @@ impl History {
     }
 }
 
-fn with_probe_of(mut state: AppState, now: &AppState) -> AppState {
-    state.probe = now.probe;
-    state.eye_ray = now.eye_ray;
-    state.arrangement.clone_from(&now.arrangement);
-    state
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::app::action::apply;
-    use crate::mapping::MappingId;
 
     fn run(history: &mut History, state: &mut AppState, action: Action) {
-        history.record(state, &action);
-        apply(state, action);
+        let before = state.clone();
+        apply(state, action.clone());
+        history.record(before, &action);
     }
 
     #[test]
@@ -136,5 +167,28 @@ mod tests {
         state = history.undo(&state).unwrap();
         assert_eq!(state.probe, [1.0, 0.0, 0.0]);
         assert_ne!(state.mapping, MappingId::Cube);
+    }
+
+    #[test]
+    fn two_panels_are_two_steps_and_another_scene_goes_back_whole() {
+        let mut history = History::default();
+        let mut state = AppState::default();
+        for mapping in [MappingId::Cube, MappingId::Ccm] {
+            let view = crate::app::state::PanelState {
+                zoom: 3.0,
+                ..state.panel(mapping)
+            };
+            run(&mut history, &mut state, Action::SetPanelView(view));
+        }
+        let zoomed = history.undo(&state).unwrap();
+        assert_eq!(zoomed.panel(MappingId::Cube).zoom, 3.0);
+        assert_eq!(zoomed.panel(MappingId::Ccm).zoom, 1.0);
+        let mut state = zoomed.clone();
+        let other = AppState {
+            probe: [0.0, 1.0, 0.0],
+            ..AppState::default()
+        };
+        run(&mut history, &mut state, Action::Load(Box::new(other)));
+        assert_eq!(history.undo(&state).unwrap(), zoomed);
     }
 }

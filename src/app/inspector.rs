@@ -20,18 +20,18 @@ pub fn inspector_ui(ui: &mut Ui, model: &mut Model<'_>) {
     egui::ScrollArea::vertical()
         .auto_shrink([false, false])
         .show(ui, |ui| {
-            section(ui, "Probe", |ui| readout_ui(ui, model));
-            section(ui, "Which face: the sign table", |ui| {
+            section_ui(ui, "Probe", |ui| readout_ui(ui, model));
+            section_ui(ui, "Which face: the sign table", |ui| {
                 sign_table_ui(ui, model)
             });
-            section(ui, "Step by step", |ui| steps_ui(ui, model));
-            section(ui, "The same direction in every map", |ui| {
+            section_ui(ui, "Step by step", |ui| steps_ui(ui, model));
+            section_ui(ui, "The same direction in every map", |ui| {
                 all_maps_ui(ui, model)
             });
         });
 }
 
-fn section(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
+fn section_ui(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
     egui::CollapsingHeader::new(RichText::new(title).strong())
         .default_open(true)
         .show(ui, content);
@@ -61,7 +61,7 @@ fn readout_ui(ui: &mut Ui, model: &mut Model<'_>) {
         {
             model.push(Action::FollowPointer(follow));
         }
-        place_menu(ui, model);
+        place_menu_ui(ui, model);
     });
     Grid::new("readout")
         .num_columns(2)
@@ -130,7 +130,7 @@ fn bad_original(surroundings: &super::model::Surroundings, dir: Vec3<f64>) -> Op
 }
 
 /// Directions of interest: centres, edges' middles and corners of the cube, where ties are.
-fn place_menu(ui: &mut Ui, model: &mut Model<'_>) {
+fn place_menu_ui(ui: &mut Ui, model: &mut Model<'_>) {
     ui.menu_button("Go to …", |ui| {
         for (title, ties) in [
             ("Face centres", 1),
@@ -312,14 +312,29 @@ fn steps_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let [x, y, z] = model.state.probe;
     let single = inspector.mapping.steps(Vec3::new(x, y, z));
     let double = inspector.mapping.steps(dir);
-    copy_all(ui, model, &inspector, &single, &double);
-    for (i, (a, b)) in single.iter().zip(&double).enumerate() {
-        let values: Vec<(&str, &str)> = match inspector.precision {
-            Precision::F32 => vec![("", &a.with_numbers)],
-            Precision::F64 => vec![("", &b.with_numbers)],
-            Precision::Both => vec![("f32  ", &a.with_numbers), ("f64  ", &b.with_numbers)],
-        };
-        step_ui(ui, model, i, a, &values);
+    let shown: Vec<Shown<'_>> = single
+        .iter()
+        .zip(&double)
+        .map(|(a, b)| Shown {
+            step: a,
+            values: match inspector.precision {
+                Precision::F32 => vec![a.with_numbers.clone()],
+                Precision::F64 => vec![b.with_numbers.clone()],
+                Precision::Both => {
+                    vec![
+                        format!("f32  {}", a.with_numbers),
+                        format!("f64  {}", b.with_numbers),
+                    ]
+                }
+            },
+        })
+        .collect();
+    if ui.button("Copy all steps").clicked() {
+        let lines: Vec<String> = shown.iter().map(Shown::text).collect();
+        model.push(Command::CopyText(lines.join("\n")));
+    }
+    for (i, shown) in shown.iter().enumerate() {
+        step_ui(ui, model, i, shown);
     }
     if inspector.conventions {
         conventions_ui(ui, model, inspector);
@@ -329,49 +344,52 @@ fn steps_ui(ui: &mut Ui, model: &mut Model<'_>) {
     }
 }
 
-fn copy_all(
-    ui: &mut Ui,
-    model: &mut Model<'_>,
-    inspector: &InspectorState,
-    single: &[Step],
-    double: &[Step],
-) {
-    if ui.button("Copy all steps").clicked() {
-        let steps = if inspector.precision == Precision::F64 {
-            double
+/// A step with the numbers that are shown, in one or two number types.
+struct Shown<'a> {
+    step: &'a Step,
+    values: Vec<String>,
+}
+
+impl Shown<'_> {
+    /// As it is copied: the name unless the formula begins with it, the formula, the numbers.
+    fn text(&self) -> String {
+        let Step { name, formula, .. } = self.step;
+        let name = if self.says_its_name() {
+            String::new()
         } else {
-            single
+            format!("{name}: ")
         };
-        let lines: Vec<String> = steps.iter().map(step_text).collect();
-        model.push(Command::CopyText(lines.join("\n")));
+        format!("{name}{formula}  →  {}", self.values.join("  |  "))
+    }
+
+    /// "u = ..." says its own name; "u: u = ..." would say it twice.
+    fn says_its_name(&self) -> bool {
+        self.step
+            .formula
+            .starts_with(&format!("{} =", self.step.name))
     }
 }
 
-fn step_text(step: &Step) -> String {
-    format!("{}: {}  →  {}", step.name, step.formula, step.with_numbers)
-}
-
 /// One step: the formula, the numbers, and a button that copies them.
-fn step_ui(ui: &mut Ui, model: &mut Model<'_>, index: usize, step: &Step, values: &[(&str, &str)]) {
+fn step_ui(ui: &mut Ui, model: &mut Model<'_>, index: usize, shown: &Shown<'_>) {
     ui.push_id(("step", index), |ui| {
         ui.horizontal_wrapped(|ui| {
-            copy_button(ui, model, || step_text(step));
-            // "u  u = ..." would say it twice.
-            if !step.formula.starts_with(&format!("{} =", step.name)) {
-                ui.label(RichText::new(step.name).strong());
+            copy_button_ui(ui, model, || shown.text());
+            if !shown.says_its_name() {
+                ui.label(RichText::new(shown.step.name).strong());
             }
-            ui.label(mono(step.formula));
+            ui.label(mono(shown.step.formula));
         });
-        for (kind, value) in values {
+        for value in &shown.values {
             ui.indent("numbers", |ui| {
-                let text = mono(format!("{kind}{value}")).color(Color32::from_gray(190));
+                let text = mono(value).color(Color32::from_gray(190));
                 ui.add(egui::Label::new(text).wrap());
             });
         }
     });
 }
 
-fn copy_button(ui: &mut Ui, model: &mut Model<'_>, text: impl FnOnce() -> String) {
+fn copy_button_ui(ui: &mut Ui, model: &mut Model<'_>, text: impl FnOnce() -> String) {
     let response = ui
         .small_button("copy")
         .on_hover_text("Copy this formula as text");
@@ -401,18 +419,20 @@ fn conventions_ui(ui: &mut Ui, model: &mut Model<'_>, inspector: InspectorState)
             }),
         ]
         .map(|p| p.map_or_else(|| "no direction".to_owned(), line));
+        let shown: Vec<&str> = match inspector.precision {
+            Precision::F32 => vec![&texts[0]],
+            Precision::F64 => vec![&texts[1]],
+            Precision::Both => vec![&texts[0], &texts[1]],
+        };
         ui.horizontal_wrapped(|ui| {
-            copy_button(ui, model, || format!("{}: {}", convention.id, texts[1]));
+            copy_button_ui(ui, model, || {
+                format!("{}: {}", convention.id, shown.join("  |  "))
+            });
             ui.label(RichText::new(format!("convention {}", convention.id)).strong());
         });
         ui.label(RichText::new(convention.about).small());
-        let shown: &[usize] = match inspector.precision {
-            Precision::F32 => &[0],
-            Precision::F64 => &[1],
-            Precision::Both => &[0, 1],
-        };
-        for &i in shown {
-            ui.add(egui::Label::new(mono(&texts[i])).wrap());
+        for text in shown {
+            ui.add(egui::Label::new(mono(text)).wrap());
         }
     }
 }
@@ -426,7 +446,7 @@ fn errata_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
         };
         let wrong = Color32::from_rgb(255, 150, 120);
         ui.horizontal_wrapped(|ui| {
-            copy_button(ui, model, || {
+            copy_button_ui(ui, model, || {
                 format!(
                     "{}: printed {} = {printed}; right {} = {right}",
                     erratum.id, erratum.printed, erratum.right
@@ -445,7 +465,7 @@ fn errata_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
     }
 }
 
-/// Chart, u, v, texel and solid angle in each open map.
+/// Chart, u, v and the texel's solid angle in each map.
 fn all_maps_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let dir = model.state.probe_f64();
     Grid::new("all maps")

@@ -41,7 +41,7 @@ impl<T: Send + 'static> Job<T> {
         let shared = Arc::clone(&progress);
         let (sender, result) = channel();
         std::thread::Builder::new()
-            .name(title.clone())
+            .name("job".to_owned())
             .spawn(move || {
                 let outcome = work(&shared);
                 drop(sender.send(outcome)); // nobody listens to a job that was replaced

@@ -4,7 +4,7 @@ use egui::{Context, Key, Modifiers};
 
 use super::action::Action;
 use super::command::Command;
-use super::dialogs::{Dialog, PictureDialog};
+use super::dialogs::{Dialog, PictureDialog, SaveDialog};
 use super::state::AppState;
 
 /// Radians that one press turns the camera: five degrees.
@@ -67,7 +67,9 @@ pub fn commands(ctx: &Context, state: &AppState, dialog: &mut Option<Dialog>) ->
         commands.push(Action::ResetCamera.into());
     }
     if pressed(Key::Escape) {
-        commands.push(Command::Maximise(None));
+        if state.maximised.is_some() {
+            commands.push(Action::SetMaximised(None).into());
+        }
         commands.push(Action::FollowPointer(true).into());
     }
     commands
@@ -88,7 +90,7 @@ fn shortcuts(ctx: &Context, commands: &mut Vec<Command>, dialog: &mut Option<Dia
         *dialog = Some(Dialog::Open(String::new()));
     }
     if control(Modifiers::NONE, Key::S) {
-        *dialog = Some(Dialog::SaveScene("scene.sixfold.json".to_owned()));
+        *dialog = Some(Dialog::SaveScene(SaveDialog::default()));
     }
     if control(Modifiers::NONE, Key::E) {
         *dialog = Some(Dialog::Picture(PictureDialog::default()));

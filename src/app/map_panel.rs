@@ -1,9 +1,9 @@
 //! The panel of one mapping: its unfolded picture with the probe's marks.
 
-use egui::{Align2, Color32, PointerButton, Rect, Response, Sense, Ui};
+use egui::{Align2, Color32, PointerButton, Pos2, Rect, Response, Sense, Ui};
 
 use super::action::{Action, probe_at};
-use super::marks::{cross_mark, edged_line, edged_text};
+use super::marks::{cross_mark, edged_line, edged_text, footprint};
 use super::model::Model;
 use super::panel_view::PanelWindow;
 use super::probe::{face_outline, picture_lines, texel_outline};
@@ -11,9 +11,6 @@ use super::state::PanelState;
 use super::theme;
 use super::views::ViewKey;
 use crate::mapping::{Layout, MappingId};
-
-/// Smallest size on the screen at which a texel's outline is drawn, in points: below, the mark hides it.
-const SMALLEST_TEXEL: f32 = 1.5;
 
 /// The window of a panel over a rectangle of the screen.
 pub fn window_of(view: &PanelState, rect: Rect) -> PanelWindow {
@@ -103,7 +100,7 @@ fn paint_chart_names(painter: &egui::Painter, mapping: MappingId, window: &Panel
     }
 }
 
-/// The probe's face, its texel and itself.
+/// The probe's face, its texel and itself; grey where the map has no texel of its own for the direction.
 fn paint_probe(
     painter: &egui::Painter,
     model: &Model<'_>,
@@ -112,33 +109,23 @@ fn paint_probe(
 ) {
     let dir = model.state.probe_f64();
     let info = mapping.info();
-    let lines = |outline: &[_], width: f32, color: Color32| {
-        for line in picture_lines(mapping, outline) {
-            let points = line
-                .into_iter()
-                .map(|p| window.screen_from_picture(p))
-                .collect();
-            edged_line(painter, points, width, color);
-        }
+    let is_own = info.coverage.contains(dir.to_f64());
+    let color = if is_own { theme::PROBE } else { Color32::GRAY };
+    let lines = |outline: &[_]| -> Vec<Vec<Pos2>> {
+        let lines = picture_lines(mapping, outline).into_iter();
+        let on_screen = |line: Vec<_>| line.into_iter().map(|p| window.screen_from_picture(p));
+        lines.map(|line| on_screen(line).collect()).collect()
     };
-    lines(&face_outline(dir), 1.5, theme::PROBE);
-    let size = model.map_size(model.state.mapping);
-    let [columns, _] = info.layout.grid();
-    let own = model.map_size(mapping);
-    let texel_points = window.points_across() / (columns * own[0]) as f32;
-    if texel_points >= SMALLEST_TEXEL {
-        lines(
-            &texel_outline(model.state.mapping, size, dir),
-            1.5,
-            theme::TEXEL,
-        );
+    for line in lines(&face_outline(dir)) {
+        edged_line(painter, line, 1.5, color);
     }
+    let size = model.map_size(model.state.mapping);
+    let texel = lines(&texel_outline(model.state.mapping, size, dir));
     let place = mapping
         .forward(dir)
         .and_then(|p| info.layout.picture_from_chart(p));
     if let Some(place) = place {
-        let own = info.coverage.contains(dir.to_f64());
-        let color = if own { theme::PROBE } else { Color32::GRAY };
         cross_mark(painter, window.screen_from_picture(place), color);
     }
+    footprint(painter, texel);
 }

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Vec2};
 
-use super::theme::PROBE_EDGE;
+use super::theme::{PROBE_EDGE, TEXEL};
 
 /// A line with a dark edge.
 pub fn edged_line(painter: &Painter, points: Vec<Pos2>, width: f32, color: Color32) {
@@ -73,4 +73,25 @@ pub fn edged_text(painter: &Painter, at: Pos2, anchor: Align2, text: &str, color
         );
     }
     painter.text(at, anchor, text, font, color);
+}
+
+/// The outline of a texel; a dot of its colour where it would be smaller than one.
+pub fn footprint(painter: &Painter, outline: Vec<Vec<Pos2>>) {
+    const SMALLEST: f32 = 3.0;
+    let mut bounds = egui::Rect::NOTHING;
+    outline
+        .iter()
+        .flatten()
+        .for_each(|p| bounds.extend_with(*p));
+    if outline.is_empty() {
+        return;
+    }
+    if bounds.width().max(bounds.height()) < SMALLEST {
+        painter.circle_filled(bounds.center(), 0.5 * SMALLEST + 1.0, PROBE_EDGE);
+        painter.circle_filled(bounds.center(), 0.5 * SMALLEST, TEXEL);
+        return;
+    }
+    for line in outline {
+        edged_line(painter, line, 1.5, TEXEL);
+    }
 }

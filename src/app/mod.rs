@@ -5,6 +5,7 @@
 //! [`picture`] behind a texture.
 
 pub mod action;
+pub mod arrangement;
 mod bars;
 pub mod command;
 mod controls;
@@ -19,6 +20,7 @@ mod keys;
 mod map_panel;
 mod marks;
 pub mod model;
+mod objects;
 pub mod offscreen;
 pub mod panel_view;
 pub mod panes;

@@ -70,8 +70,6 @@ pub struct Model<'a> {
     pub jobs: &'a [JobLine],
     /// Messages to show.
     pub messages: &'a [Message],
-    /// Shown alone, if any.
-    pub maximised: Option<super::panes::Pane>,
     /// The device, for naming views.
     pub gpu: &'a Gpu,
     /// Names of the renderer's textures.

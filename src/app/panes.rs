@@ -3,33 +3,12 @@
 use egui_tiles::{
     Behavior, Container, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse,
 };
-use serde::{Deserialize, Serialize};
 
 use super::action::Action;
-use super::command::Command;
+use super::arrangement::Pane;
 use super::model::Model;
 use super::state::AppState;
 use super::{map_panel, viewport};
-use crate::mapping::MappingId;
-
-/// What a tile shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Pane {
-    /// The mirror object before its surroundings.
-    Viewport,
-    /// The unfolded picture of a mapping.
-    Map(MappingId),
-}
-
-impl Pane {
-    /// Its title.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Viewport => "Viewport",
-            Self::Map(mapping) => mapping.info().name,
-        }
-    }
-}
 
 /// The first arrangement: the viewport above a grid of the open panels.
 pub fn first_tree(state: &AppState) -> Tree<Pane> {
@@ -45,18 +24,22 @@ pub fn first_tree(state: &AppState) -> Tree<Pane> {
         linear.shares.set_share(viewport, 1.15);
         linear.shares.set_share(grid, 1.0);
     }
-    Tree::new(egui::Id::unique("panes"), root, tiles)
+    Tree::new(tree_id(), root, tiles)
 }
 
-/// The saved arrangement, or the first one where none was saved or it cannot be read.
+/// The saved arrangement, or the first one where none was saved.
 pub fn tree_of(state: &AppState) -> Tree<Pane> {
     let saved = state
         .arrangement
-        .clone()
-        .and_then(|v| serde_json::from_value(v).ok());
+        .as_ref()
+        .and_then(|saved| saved.to_tree(tree_id()));
     let mut tree = saved.unwrap_or_else(|| first_tree(state));
     follow(&mut tree, state);
     tree
+}
+
+fn tree_id() -> egui::Id {
+    egui::Id::unique("panes")
 }
 
 /// Adds the panels that were opened and takes away those that were hidden.
@@ -97,25 +80,17 @@ fn insert(tree: &mut Tree<Pane>, pane: Pane) {
 
 /// Shows the tiles, or one pane alone.
 pub fn panes_ui(ui: &mut egui::Ui, model: &mut Model<'_>, tree: &mut Tree<Pane>) {
-    if let Some(pane) = model.maximised {
+    if let Some(pane) = model.state.maximised {
         ui.horizontal(|ui| {
             ui.strong(pane.name());
             if ui.button("Show all panels").clicked() {
-                model.push(Command::Maximise(None));
+                model.push(Action::SetMaximised(None));
             }
         });
         pane_ui(ui, model, pane);
         return;
     }
-    let mut behavior = PaneBehavior {
-        model,
-        edited: false,
-    };
-    tree.ui(&mut behavior, ui);
-    if behavior.edited {
-        let arrangement = serde_json::to_value(&*tree).ok();
-        model.push(Action::SetArrangement(arrangement));
-    }
+    tree.ui(&mut PaneBehavior { model }, ui);
 }
 
 fn pane_ui(ui: &mut egui::Ui, model: &mut Model<'_>, pane: Pane) {
@@ -127,7 +102,6 @@ fn pane_ui(ui: &mut egui::Ui, model: &mut Model<'_>, pane: Pane) {
 
 struct PaneBehavior<'a, 'm> {
     model: &'a mut Model<'m>,
-    edited: bool,
 }
 
 impl Behavior<Pane> for PaneBehavior<'_, '_> {
@@ -174,7 +148,7 @@ impl Behavior<Pane> for PaneBehavior<'_, '_> {
         let response = response.on_hover_text(&name);
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name.as_str()));
         if response.clicked() {
-            self.model.push(Command::Maximise(Some(*pane)));
+            self.model.push(Action::SetMaximised(Some(*pane)));
         }
     }
 
@@ -192,17 +166,13 @@ impl Behavior<Pane> for PaneBehavior<'_, '_> {
     fn gap_width(&self, _: &egui::Style) -> f32 {
         3.0
     }
-
-    fn on_edit(&mut self, edit: egui_tiles::EditAction) {
-        if edit != egui_tiles::EditAction::TabSelected {
-            self.edited = true;
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::arrangement::Arrangement;
+    use crate::mapping::MappingId;
 
     #[test]
     fn the_tree_follows_the_state_and_survives_its_file() {
@@ -222,10 +192,10 @@ mod tests {
         assert_eq!(shown(&tree), 5);
         assert!(find(&tree, Pane::Map(MappingId::Eac)).is_some());
         assert!(find(&tree, Pane::Map(MappingId::Latlong)).is_none());
-        state.arrangement = Some(serde_json::to_value(&tree).unwrap());
+        state.arrangement = Arrangement::of_tree(&tree);
         assert_eq!(shown(&tree_of(&state)), 5);
-        // A damaged arrangement falls back to the first one.
-        state.arrangement = Some(serde_json::json!({"root": 7}));
+        // An arrangement without the viewport falls back to the first one.
+        state.arrangement = Some(Arrangement::Pane(Pane::Map(MappingId::Cube)));
         assert!(find(&tree_of(&state), Pane::Viewport).is_some());
     }
 }

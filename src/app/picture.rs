@@ -93,7 +93,7 @@ pub fn make(
     let picture = draw(gpu, state, surroundings, request, progress)?;
     if let Destination::File { path, force } = &request.to {
         let [width, height] = picture.size;
-        let scene = state.to_json();
+        let scene = state.to_json().map_err(|error| error.to_string())?;
         let bytes = png_out::encode_png(width, height, &picture.rgba, Some(&scene))
             .map_err(|error| error.to_string())?;
         check_cancelled(progress)?;

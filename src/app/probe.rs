@@ -88,7 +88,6 @@ pub fn picture_lines(mapping: MappingId, outline: &[Vec3<f64>]) -> Vec<Vec<[f64;
     for &dir in outline {
         let place = mapping
             .forward(dir)
-            .filter(|_| info.coverage.contains(dir.to_f64()))
             .and_then(|p| info.layout.picture_from_chart(p));
         let Some(place) = place else {
             lines.push(Vec::new());

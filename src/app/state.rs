@@ -8,8 +8,10 @@ use crate::gpu::ToneCurve;
 use crate::imaging::Environment;
 use crate::mapping::MappingId;
 use crate::math::Vec3;
-use crate::scene::{Camera, Object, Ray, Target};
+use crate::scene::{Camera, Object, Ray};
 
+use super::arrangement::{Arrangement, Pane};
+use super::objects::target_of;
 use super::viewport::looked_up;
 
 /// Version of the saved form. A scene of a later version is refused; earlier ones are migrated by [`AppState::from_json`].
@@ -50,8 +52,10 @@ pub struct AppState {
     pub eye_ray: Option<EyeRay>,
     /// One entry for each mapping, in the registry's order.
     pub panels: Vec<PanelState>,
-    /// How the panels are arranged, in the tiling library's own form.
-    pub arrangement: Option<serde_json::Value>,
+    /// How the panes are arranged; `None` as at first.
+    pub arrangement: Option<Arrangement>,
+    /// The pane that is shown alone.
+    pub maximised: Option<Pane>,
     /// What the inspector shows.
     pub inspector: InspectorState,
 }
@@ -212,7 +216,7 @@ static FIRST_PROBE: LazyLock<([f32; 3], EyeRay)> = LazyLock::new(|| {
         ..Camera::default()
     };
     let ray = eye.ray((0.5, 0.52), 1.0);
-    let (dir, _) = looked_up(&Target::new(Object::Teapot.mesh()), ray);
+    let (dir, _) = looked_up(&target_of(Object::Teapot), ray);
     (unit(dir.to_array()), ray.into())
 });
 
@@ -245,6 +249,7 @@ impl Default for AppState {
             eye_ray: Some(FIRST_PROBE.1),
             panels,
             arrangement: None,
+            maximised: None,
             inspector: InspectorState::default(),
         }
     }
@@ -256,6 +261,9 @@ pub enum SceneError {
     /// Not JSON, or not a scene.
     #[error("this is not a Sixfold scene: {0}")]
     NotAScene(#[from] serde_json::Error),
+    /// It cannot be written as text.
+    #[error("the scene cannot be written ({0}); rename the environment's file")]
+    NotText(#[source] serde_json::Error),
     /// Written by a later version.
     #[error(
         "the scene has form {found}, this program knows {SCHEMA}: open it with a newer Sixfold"
@@ -268,9 +276,11 @@ pub enum SceneError {
 
 impl AppState {
     /// The state as the text of a scene file.
-    pub fn to_json(&self) -> String {
-        // A struct of plain data with string keys always serialises.
-        serde_json::to_string_pretty(self).unwrap_or_default()
+    ///
+    /// # Errors
+    /// When the environment's path is not Unicode, which a text file cannot hold.
+    pub fn to_json(&self) -> Result<String, SceneError> {
+        serde_json::to_string_pretty(self).map_err(SceneError::NotText)
     }
 
     /// A state from the text of a scene file; every number is brought into its range.
@@ -291,6 +301,7 @@ impl AppState {
         let finite = |x: f32, or: f32| if x.is_finite() { x } else { or };
         self.schema = SCHEMA;
         self.divider = finite(self.divider, 0.5).clamp(0.0, 1.0);
+        self.compare = self.compare.filter(|m| *m != self.mapping);
         self.camera = self.camera.sanitized();
         self.exposure_ev = finite(self.exposure_ev, 0.0).clamp(EXPOSURE_RANGE.0, EXPOSURE_RANGE.1);
         self.texel_budget = self
@@ -313,6 +324,7 @@ impl AppState {
                 panel
             })
             .collect();
+        self.show_alone(self.maximised);
         self
     }
 
@@ -325,6 +337,15 @@ impl AppState {
     /// The panel of a mapping, to be changed.
     pub fn panel_mut(&mut self, mapping: MappingId) -> Option<&mut PanelState> {
         self.panels.iter_mut().find(|p| p.mapping == mapping)
+    }
+
+    /// Shows a pane alone, unless it is hidden, or all again.
+    pub fn show_alone(&mut self, pane: Option<Pane>) {
+        let is_open = |pane: &Pane| match pane {
+            Pane::Viewport => true,
+            Pane::Map(mapping) => self.panel(*mapping).open,
+        };
+        self.maximised = pane.filter(is_open);
     }
 
     /// The probe in f64.
@@ -356,12 +377,18 @@ mod tests {
             compare: Some(MappingId::Eac),
             ..AppState::default()
         };
-        assert_eq!(AppState::from_json(&state.to_json()).unwrap(), state);
+        assert_eq!(
+            AppState::from_json(&state.to_json().unwrap()).unwrap(),
+            state
+        );
         let other = AppState {
             compare: Some(MappingId::Cube),
             ..state.clone()
         };
-        assert_ne!(AppState::from_json(&other.to_json()).unwrap(), state);
+        assert_ne!(
+            AppState::from_json(&other.to_json().unwrap()).unwrap(),
+            state
+        );
     }
 
     #[test]

@@ -19,7 +19,8 @@ pub struct TexelKey {
 /// The last colour that came back, and the one that is on its way.
 #[derive(Default)]
 pub struct TexelColor {
-    known: Option<(TexelKey, [f32; 3])>,
+    /// `None` as colour after a fault: it is not asked for again.
+    known: Option<(TexelKey, Option<[f32; 3]>)>,
     coming: Option<(TexelKey, TexelRead)>,
 }
 
@@ -30,20 +31,21 @@ impl TexelColor {
             && let Some(answer) = read.poll()
         {
             // After a fault the texel shows as unknown; the renderer reports the fault itself.
-            self.known = answer.ok().map(|color| (*wanted, color));
+            self.known = Some((*wanted, answer.ok()));
             self.coming = None;
         }
-        let known = self
-            .known
-            .filter(|(known, _)| *known == key)
-            .map(|(_, color)| color);
-        if known.is_none() && self.coming.is_none() {
-            let read = renderer
-                .begin_read_texel(key.mapping, key.chart, key.texel)
-                .ok();
-            self.coming = read.map(|read| (key, read));
+        match self.known {
+            Some((known, color)) if known == key => color,
+            _ => {
+                if self.coming.is_none() {
+                    let read = renderer
+                        .begin_read_texel(key.mapping, key.chart, key.texel)
+                        .ok();
+                    self.coming = read.map(|read| (key, read));
+                }
+                None
+            }
         }
-        known
     }
 
     /// A colour is on its way: look again soon.

@@ -47,9 +47,12 @@ pub fn install(ctx: &egui::Context) {
         style.spacing.item_spacing = egui::vec2(6.0, 4.0);
         // Nothing fades: a fade would draw frames in a still window.
         style.animation_time = 0.0;
+        // Nor does the text cursor blink.
+        style.visuals.text_cursor.blink = false;
     });
     ctx.style_mut_of(egui::Theme::Dark, |style| {
         let mut visuals = Visuals::dark();
+        visuals.text_cursor.blink = false;
         visuals.override_text_color = Some(Color32::from_gray(225));
         visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, Color32::from_gray(55));
         style.visuals = visuals;

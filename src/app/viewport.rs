@@ -4,8 +4,9 @@ use egui::{Align2, Color32, PointerButton, Pos2, Rect, Response, Sense, Ui, pos2
 use glam::Vec3;
 
 use super::action::Action;
-use super::marks::{arrow, beyond, edged_line, edged_text};
+use super::marks::{arrow, beyond, edged_line, edged_text, footprint};
 use super::model::Model;
+use super::probe::texel_outline;
 use super::theme;
 use super::views::ViewKey;
 use crate::gpu::GREAT_CIRCLE_COLORS;
@@ -136,6 +137,9 @@ fn paint_marks(ui: &Ui, model: &Model<'_>, rect: Rect) {
     if overlays.vectors {
         paint_vectors(&painter, model, rect);
     }
+    if overlays.probe {
+        paint_footprint(&painter, model, rect);
+    }
     if overlays.great_circles {
         for (i, (name, _)) in GREAT_CIRCLES.iter().enumerate() {
             let [r, g, b] = GREAT_CIRCLE_COLORS[i];
@@ -178,6 +182,29 @@ fn paint_axes(painter: &egui::Painter, camera: Camera, rect: Rect) {
     for (_, tip, i) in axes {
         arrow(painter, origin, tip, theme::AXES[i], ["x", "y", "z"][i]);
     }
+}
+
+/// The probe's texel where it is seen directly, in the sky beside the object.
+fn paint_footprint(painter: &egui::Painter, model: &Model<'_>, rect: Rect) {
+    let camera = model.state.camera;
+    let place = |dir: Vec3| camera.project_direction(dir, aspect(rect));
+    let at = place(model.state.probe.into());
+    let is_hidden = |(u, v)| {
+        model
+            .target
+            .cast(camera.ray((u, v), aspect(rect)))
+            .is_some()
+    };
+    if at.is_none_or(is_hidden) {
+        return;
+    }
+    let size = model.map_size(model.state.mapping);
+    let outline = texel_outline(model.state.mapping, size, model.state.probe_f64());
+    let on_screen = outline.iter().filter_map(|dir| {
+        let (u, v) = place(dir.to_f64().map(|c| c as f32).into())?;
+        Some(rect.min + vec2(u * rect.width(), v * rect.height()))
+    });
+    footprint(painter, vec![on_screen.collect()]);
 }
 
 /// The incident, normal and reflected vectors where the ray that found the probe met the object.

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 
 use super::explorer::Explorer;
 use super::state::AppState;
-use super::{files, theme};
+use super::{files, objects, theme};
 use crate::gpu::{Gpu, context};
 
 /// Why the window did not open or had to close.
@@ -106,6 +106,7 @@ impl Window {
             device.queue.clone(),
             device.adapter.get_info(),
         );
+        objects::prepare_all();
         let explorer = Explorer::new(gpu, Arc::clone(&device.renderer), state);
         Ok(Self { explorer, lost })
     }

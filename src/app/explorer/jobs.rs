@@ -1,6 +1,6 @@
 //! The explorer's jobs: what takes longer than a frame, and what becomes of it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::Context;
@@ -13,8 +13,10 @@ use crate::app::job::{Job, Outcome};
 use crate::app::model::{JobLine, Surroundings};
 use crate::app::panes;
 use crate::app::picture::{self, Destination, PictureRequest};
+use crate::app::state::AppState;
 use crate::gpu::{EnvironmentSource, EnvironmentTexture, Gpu};
-use crate::imaging::Environment;
+use crate::imaging::atomic::write_atomically;
+use crate::imaging::{Environment, Progress, Stage};
 
 /// Surroundings that are on the device already.
 pub(super) struct Ready {
@@ -39,26 +41,40 @@ impl Ready {
     }
 }
 
+/// What an errand leaves behind.
+pub(super) struct Errand {
+    /// For the user.
+    message: String,
+    /// For the clipboard.
+    picture: Option<egui::ColorImage>,
+}
+
+/// Writes a scene as text.
+pub(super) fn write_scene(scene: &AppState, path: &Path, force: bool) -> Result<(), String> {
+    let text = scene.to_json().map_err(|error| error.to_string())?;
+    write_atomically(path, force, text.as_bytes()).map_err(|error| error.to_string())
+}
+
 impl Explorer {
     pub(super) fn job_lines(&self) -> Vec<JobLine> {
-        let line = |id: u64, title: &str, progress: &crate::imaging::Progress| JobLine {
-            id,
-            title: title.to_owned(),
-            fraction: progress.fraction(),
-        };
-        let loading = self
-            .loading
-            .iter()
-            .map(|job| line(job.id, &job.title, &job.progress));
-        let opening = self
-            .opening
-            .iter()
-            .map(|job| line(job.id, &job.title, &job.progress));
-        let pictures = self
-            .pictures
-            .iter()
-            .map(|(_, job)| line(job.id, &job.title, &job.progress));
-        loading.chain(opening).chain(pictures).collect()
+        fn line<T: Send + 'static>(job: &Job<T>) -> JobLine {
+            let stage = job.progress.stage();
+            let title = match stage {
+                Stage::Waiting | Stage::Done => job.title.clone(),
+                _ => format!("{}: {}", job.title, stage.name()),
+            };
+            JobLine {
+                id: job.id,
+                title,
+                fraction: job.progress.fraction(),
+            }
+        }
+        let loading = self.loading.iter().map(line);
+        let opening = self.opening.iter().map(line);
+        loading
+            .chain(opening)
+            .chain(self.errands.iter().map(line))
+            .collect()
     }
 
     pub(super) fn job_id(&mut self) -> u64 {
@@ -78,6 +94,9 @@ impl Explorer {
                 let loaded = environment
                     .image(progress)
                     .map_err(|error| error.to_string())?;
+                if progress.is_cancelled() {
+                    return Err("opening was cancelled".to_owned());
+                }
                 Ready::new(
                     &gpu,
                     Surroundings {
@@ -111,22 +130,49 @@ impl Explorer {
 
     pub(super) fn make_picture(&mut self, ctx: &Context, request: PictureRequest) {
         let Some(surroundings) = self.surroundings.clone() else {
-            self.fail(
-                "the environment is still loading; save the picture when it is there".to_owned(),
-            );
+            let why = "the environment is still loading; save the picture when it is there";
+            self.fail(why.to_owned());
             return;
         };
-        let (id, wake, gpu) = (self.job_id(), ctx.clone(), self.gpu.clone());
-        let (state, what) = (self.state.clone(), request.clone());
-        let job = Job::start(
-            id,
-            "drawing the picture".to_owned(),
-            move || wake.request_repaint(),
-            move |progress| picture::make(&gpu, &state, surroundings, &what, progress),
-        );
-        match job {
-            Ok(job) => self.pictures.push((request, job)),
-            Err(error) => self.fail(format!("no thread for drawing the picture: {error}")),
+        let (gpu, scene) = (self.gpu.clone(), self.scene());
+        self.send(ctx, "drawing the picture", move |progress| {
+            let picture = picture::make(&gpu, &scene, surroundings, &request, progress)?;
+            Ok(match request.to {
+                Destination::File { path, .. } => Errand {
+                    message: format!("The picture is in {}", path.display()),
+                    picture: None,
+                },
+                Destination::Clipboard => Errand {
+                    message: "The picture was sent to the clipboard".to_owned(),
+                    picture: Some(picture.to_color_image()),
+                },
+            })
+        });
+    }
+
+    pub(super) fn save_scene(&mut self, ctx: &Context, path: PathBuf, force: bool) {
+        let scene = self.scene();
+        self.send(ctx, "saving the scene", move |_| {
+            write_scene(&scene, &path, force)?;
+            let message = format!("The scene is in {}", path.display());
+            Ok(Errand {
+                message,
+                picture: None,
+            })
+        });
+    }
+
+    /// Starts a job that ends in a message.
+    fn send(
+        &mut self,
+        ctx: &Context,
+        title: &str,
+        work: impl FnOnce(&Progress) -> Result<Errand, String> + Send + 'static,
+    ) {
+        let (id, wake) = (self.job_id(), ctx.clone());
+        match Job::start(id, title.to_owned(), move || wake.request_repaint(), work) {
+            Ok(job) => self.errands.push(job),
+            Err(error) => self.fail(format!("no thread for {title}: {error}")),
         }
     }
 
@@ -146,15 +192,17 @@ impl Explorer {
     }
 
     pub(super) fn cancel(&mut self, id: u64) {
-        self.loading.take_if(|job| job.id == id);
+        if self.loading.take_if(|job| job.id == id).is_some() {
+            self.keep_shown();
+        }
         self.opening.take_if(|job| job.id == id);
-        self.pictures.retain(|(_, job)| job.id != id);
+        self.errands.retain(|job| job.id != id);
     }
 
     pub(super) fn poll_jobs(&mut self, ctx: &Context) {
         self.poll_loading();
         self.poll_opening(ctx);
-        self.poll_pictures(ctx);
+        self.poll_errands(ctx);
         self.poll_asked(ctx);
     }
 
@@ -185,6 +233,12 @@ impl Explorer {
     /// A bad file leaves the scene as it was; a scene whose environment is missing gets the default one.
     fn loading_failed(&mut self, why: String) {
         self.fail(why);
+        self.keep_shown();
+    }
+
+    /// The state names the surroundings that are shown. Before the first ones it names the default, unless just that did
+    /// not come.
+    fn keep_shown(&mut self) {
         match &self.surroundings {
             Some(shown) => self.state.environment = shown.environment.clone(),
             None => {
@@ -210,9 +264,9 @@ impl Explorer {
         match job.poll() {
             Outcome::Running => self.opening = Some(job),
             Outcome::Done(Ok(Opened::Scene(state))) => {
-                self.history
-                    .record(&self.state, &Action::Load(state.clone()));
-                self.replace(ctx, state.sanitized());
+                let before = self.state.clone();
+                self.replace(ctx, state.clone().sanitized());
+                self.history.record(before, &Action::Load(state));
                 self.tree = panes::tree_of(&self.state);
             }
             Outcome::Done(Ok(Opened::Environment(environment))) => self.load(ctx, environment),
@@ -221,23 +275,18 @@ impl Explorer {
         }
     }
 
-    fn poll_pictures(&mut self, ctx: &Context) {
-        for (request, job) in std::mem::take(&mut self.pictures) {
+    fn poll_errands(&mut self, ctx: &Context) {
+        for job in std::mem::take(&mut self.errands) {
             match job.poll() {
-                Outcome::Running => self.pictures.push((request, job)),
-                Outcome::Done(Ok(picture)) => match request.to {
-                    Destination::File { path, .. } => {
-                        self.tell(format!("The picture is in {}", path.display()));
+                Outcome::Running => self.errands.push(job),
+                Outcome::Done(Ok(Errand { message, picture })) => {
+                    if let Some(picture) = picture {
+                        ctx.copy_image(picture);
                     }
-                    Destination::Clipboard => {
-                        ctx.copy_image(picture.to_color_image());
-                        self.tell("The picture is on the clipboard".to_owned());
-                    }
-                },
-                Outcome::Done(Err(why)) => self.fail(why),
-                Outcome::Failed => {
-                    self.fail("drawing the picture ended without a result".to_owned());
+                    self.tell(message);
                 }
+                Outcome::Done(Err(why)) => self.fail(why),
+                Outcome::Failed => self.fail(format!("{} ended without a result", job.title)),
             }
         }
     }
@@ -246,30 +295,15 @@ impl Explorer {
         let Some((dialog, job)) = self.asked.take() else {
             return;
         };
-        let path = match job.poll() {
-            Outcome::Running => {
-                self.asked = Some((dialog, job));
-                return;
-            }
-            Outcome::Done(path) => path,
-            Outcome::Failed => None,
-        };
-        let text = path.as_deref().map(|p| p.display().to_string());
-        match (dialog, path) {
-            (Dialog::Open(_), Some(path)) => {
+        match job.poll() {
+            Outcome::Running => self.asked = Some((dialog, job)),
+            Outcome::Done(Some(path)) if matches!(dialog, Dialog::Open(_)) => {
                 self.dialog = None;
                 self.open(ctx, path);
             }
-            // Without a dialog of the system the path can still be typed.
-            (Dialog::Open(_), None) => self.dialog = Some(Dialog::Open(String::new())),
-            (Dialog::SaveScene(_), path) => {
-                self.dialog = Some(Dialog::SaveScene(text.unwrap_or_default()));
-                drop(path);
-            }
-            (Dialog::Picture(mut fields), _) => {
-                fields.path = text.unwrap_or(fields.path);
-                self.dialog = Some(Dialog::Picture(fields));
-            }
+            Outcome::Done(Some(path)) => self.dialog = Some(dialog.with_chosen(&path)),
+            // Declined, or there is no dialog of the system: what was typed stays.
+            Outcome::Done(None) | Outcome::Failed => {}
         }
     }
 }
