@@ -389,7 +389,7 @@ fn a_lost_device_ends_in_a_message_and_a_saved_scene() {
 fn a_load_that_is_overtaken_or_cancelled_leaves_state_and_picture_alike() {
     let mut ui = open(small());
     let ctx = ui.ctx.clone();
-    let mut tell = |ui: &mut Ui, command: Command| ui.state_mut().explorer_mut().run(&ctx, command);
+    let tell = |ui: &mut Ui, command: Command| ui.state_mut().explorer_mut().run(&ctx, command);
     let shown = |ui: &Ui| ui.state().explorer().state().environment.clone();
     tell(&mut ui, Command::LoadEnvironment(Environment::Graticule));
     settle(&mut ui);
