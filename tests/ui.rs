@@ -43,7 +43,7 @@ fn open_sized(state: AppState, width: f32, height: f32) -> Ui {
 fn small() -> AppState {
     AppState {
         texel_budget: 6 * 64 * 64,
-        environment: Environment::DirectionColour,
+        environment: Environment::DirectionColor,
         ..AppState::default()
     }
 }

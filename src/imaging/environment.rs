@@ -33,7 +33,8 @@ pub enum Environment {
     /// Meridians and parallels.
     Graticule,
     /// The direction as colour.
-    DirectionColour,
+    #[serde(rename = "direction-colour")] // as [`Environment::id`]
+    DirectionColor,
     /// Icosahedron and dodecahedron.
     IcosahedronCrosses,
     /// A latlong picture on disk: HDR, EXR, PNG or JPEG.
@@ -47,7 +48,7 @@ impl Environment {
         Self::Sunset,
         Self::LabelledFaces,
         Self::Graticule,
-        Self::DirectionColour,
+        Self::DirectionColor,
         Self::IcosahedronCrosses,
     ];
 
@@ -58,7 +59,7 @@ impl Environment {
             Self::Sunset => "Sunset".to_owned(),
             Self::LabelledFaces => "Labelled faces".to_owned(),
             Self::Graticule => "Graticule".to_owned(),
-            Self::DirectionColour => "Direction as colour".to_owned(),
+            Self::DirectionColor => "Direction as colour".to_owned(),
             Self::IcosahedronCrosses => "Icosahedron crosses".to_owned(),
             Self::File(path) => path
                 .file_name()
@@ -75,7 +76,7 @@ impl Environment {
             Self::Sunset => "sunset".to_owned(),
             Self::LabelledFaces => "labelled-faces".to_owned(),
             Self::Graticule => "graticule".to_owned(),
-            Self::DirectionColour => "direction-colour".to_owned(),
+            Self::DirectionColor => "direction-colour".to_owned(),
             Self::IcosahedronCrosses => "icosahedron-crosses".to_owned(),
             Self::File(path) => path.display().to_string(),
         }
@@ -116,7 +117,7 @@ impl Environment {
             Self::Sunset => embedded(include_bytes!("../../assets/sunset.exr")),
             Self::LabelledFaces => pattern(Pattern::LabelledFaces),
             Self::Graticule => pattern(Pattern::Graticule),
-            Self::DirectionColour => pattern(Pattern::DirectionColor),
+            Self::DirectionColor => pattern(Pattern::DirectionColor),
             Self::IcosahedronCrosses => pattern(Pattern::IcosahedronCrosses),
             Self::File(path) => load::load(path, progress),
         }
