@@ -1,10 +1,11 @@
 //! PNG files that carry the scene they show.
 
-use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
+
+use super::open_regular;
 
 /// Key of the text chunk that holds the scene as JSON.
 pub const SCENE_KEY: &str = "sixfold-scene";
@@ -110,14 +111,7 @@ pub fn read_scene(path: &Path) -> Result<Option<String>, PngError> {
         cause,
         path: path.to_owned(),
     };
-    let file = File::open(path).map_err(io)?;
-    if !file.metadata().map_err(io)?.is_file() {
-        let reason = "not a regular file".to_owned();
-        return Err(PngError::Damaged {
-            reason,
-            path: path.to_owned(),
-        });
-    }
+    let file = open_regular(path).map_err(io)?;
     scene_from(BufReader::new(file)).map_err(|reason| PngError::Damaged {
         reason,
         path: path.to_owned(),

@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use sixfold::imaging::computed::{self, Pattern};
 use sixfold::imaging::load::{self, LoadProblem, load_bytes};
-use sixfold::imaging::{Environment, Image, Progress, Stage, atomic, png_out};
+use sixfold::imaging::{self, Environment, Image, Progress, Stage, atomic, png_out};
 
 use super::fixtures::{crc32, flat_hdr, seeds};
 
@@ -83,8 +83,29 @@ fn cancelled_loads_stop_and_files_open() {
     let error = load::load(&missing, &Progress::new()).unwrap_err();
     assert!(error.to_string().ends_with("missing.hdr"), "{error}");
     let error = load::load(folder.path(), &Progress::new()).unwrap_err();
-    assert!(matches!(error.problem, LoadProblem::NotAFile), "{error}");
+    assert!(error.to_string().contains("not a regular file"), "{error}");
     assert!(Environment::File(missing).image(&Progress::new()).is_err());
+}
+
+/// Opened like a file, a pipe to which nobody writes would hang this test.
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_refused_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe.png");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.unwrap().success());
+    let refusals = [
+        png_out::read_scene(&pipe).unwrap_err().to_string(),
+        load::load(&pipe, &Progress::new()).unwrap_err().to_string(),
+        imaging::open_regular(&pipe).unwrap_err().to_string(),
+    ];
+    for refusal in refusals {
+        assert!(refusal.contains("not a regular file"), "{refusal}");
+    }
+    let file = folder.path().join("file.png");
+    std::fs::write(&file, b"x").unwrap();
+    assert!(imaging::open_regular(&file).is_ok());
 }
 
 #[test]
