@@ -13,7 +13,10 @@ pub const SCENE_KEY: &str = "sixfold-scene";
 /// Longest scene text in bytes. A scene takes a few kilobytes; the cap stands against files made to exhaust memory.
 pub const MOST_SCENE_BYTES: usize = 1 << 20;
 
-/// Most chunks that are looked at: a picture of 8192 x 8192 has at most about 2^15 of the usual 8 KiB.
+/// Longest side of a picture in pixels: what every adapter's textures hold.
+pub const MAX_SIDE: u32 = 8192;
+
+/// Most chunks that are looked at: a picture of [`MAX_SIDE`] squared has at most about 2^15 of the usual 8 KiB.
 const MOST_CHUNKS: usize = 1 << 20;
 
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
