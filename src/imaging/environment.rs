@@ -82,12 +82,15 @@ impl Environment {
         }
     }
 
-    /// The built-in environment of that id; anything else is the path of a file.
+    /// The built-in environment of that id; anything else is the path of a file, made absolute: a scene that is opened
+    /// from elsewhere must find the file again.
     pub fn from_id(id: &str) -> Self {
         Self::ALL_BUILT_IN
             .into_iter()
             .find(|environment| environment.id() == id)
-            .unwrap_or_else(|| Self::File(PathBuf::from(id)))
+            .unwrap_or_else(|| {
+                Self::File(std::path::absolute(id).unwrap_or_else(|_| PathBuf::from(id)))
+            })
     }
 
     /// The latlong picture, computed ones at [`computed::DEFAULT_HEIGHT`].

@@ -25,10 +25,13 @@ fn ids_and_scenes_name_every_environment() {
     ids.dedup();
     assert_eq!(ids.len(), Environment::ALL_BUILT_IN.len());
     let file = Environment::from_id("some/room.exr");
+    // Wherever it is opened again.
+    let path = std::env::current_dir().unwrap().join("some/room.exr");
     assert_eq!(
-        (file.name().as_str(), file.id().as_str()),
-        ("room.exr", "some/room.exr")
+        (file.name().as_str(), file.id()),
+        ("room.exr", path.display().to_string())
     );
+    assert_eq!(file, Environment::File(path));
     let text = serde_json::to_string(&file).unwrap();
     assert_eq!(serde_json::from_str::<Environment>(&text).unwrap(), file);
 }
