@@ -227,7 +227,7 @@ fn files_appear_whole_or_not_at_all() {
 }
 
 #[test]
-fn lookups_wrap_at_the_date_line_and_the_poles() {
+fn every_number_names_a_texel() {
     let image = Image::new(4, 2, (0..8).map(|i| [i as f32; 3]).collect()).unwrap();
     assert!(Image::new(4, 2, vec![[0.0; 3]; 7]).is_err() && Image::new(0, 0, vec![]).is_err());
     assert_eq!(image.texel(3, 1), Some([7.0; 3]));
@@ -237,13 +237,4 @@ fn lookups_wrap_at_the_date_line_and_the_poles() {
         (image.nearest(1.0, 1.0)[0], image.nearest(f64::NAN, -3.0)[0]),
         (7.0, 0.0)
     );
-    // Texel centres are exact.
-    assert_eq!(image.bilinear_latlong(0.375, 0.25)[0], 1.0);
-    assert_eq!(image.bilinear_latlong(0.5, 0.25)[0], 1.5);
-    // Between the last and the first column.
-    assert_eq!(image.bilinear_latlong(0.0, 0.25)[0], 1.5);
-    assert_eq!(image.bilinear_latlong(1.0, 0.25)[0], 1.5);
-    // At the pole: the texel and the one half way round.
-    assert_eq!(image.bilinear_latlong(0.125, 0.0)[0], 1.0);
-    assert!(image.bilinear_latlong(f64::INFINITY, f64::NAN)[0].is_finite());
 }
