@@ -14,21 +14,21 @@ fn main() -> ExitCode {
     ExitCode::from(status)
 }
 
-/// 0, or one line on standard error and 1.
+/// 0, or one line on standard error and the status that comes with it.
 #[cfg(feature = "explorer")]
-fn status_of(outcome: Result<(), impl std::fmt::Display>) -> u8 {
+fn status_of(outcome: Result<(), (u8, impl std::fmt::Display)>) -> u8 {
     match outcome {
         Ok(()) => cli::DONE,
-        Err(error) => {
+        Err((status, error)) => {
             cli::complain(error);
-            cli::FAILED
+            status
         }
     }
 }
 
 #[cfg(feature = "explorer")]
 fn explore(scene: Option<PathBuf>) -> u8 {
-    status_of(sixfold::app::run(scene.as_deref()))
+    status_of(sixfold::app::run(scene.as_deref()).map_err(|error| (cli::FAILED, error)))
 }
 
 #[cfg(feature = "explorer")]
@@ -36,17 +36,20 @@ fn render(options: &RenderOptions) -> u8 {
     status_of(draw(options))
 }
 
-/// The picture that the options ask for: the scene, changed where an option says so.
+/// The picture that the options ask for: the scene, changed where an option says so. What can be refused is refused
+/// before anything is drawn.
 #[cfg(feature = "explorer")]
-fn draw(options: &RenderOptions) -> Result<(), String> {
+fn draw(options: &RenderOptions) -> Result<(), (u8, String)> {
     use sixfold::app::action::{Action, apply};
     use sixfold::app::picture::{self, Destination, PictureRequest, What};
     use sixfold::app::{files, state::AppState};
     use sixfold::cli::Picture;
-    use sixfold::imaging::Environment;
+    use sixfold::imaging::{Environment, atomic};
 
+    let failed = |error: String| (cli::FAILED, error);
+    atomic::check_name(&options.out, options.force).map_err(|error| failed(error.to_string()))?;
     let mut state = match &options.scene {
-        Some(path) => files::open_scene(path)?,
+        Some(path) => files::open_scene(path).map_err(failed)?,
         None => AppState::default(),
     };
     let environment = options.environment.as_deref().map(Environment::from_id);
@@ -61,6 +64,13 @@ fn draw(options: &RenderOptions) -> Result<(), String> {
     for action in changes.into_iter().flatten() {
         apply(&mut state, action);
     }
+    if let Some(compare) = options.compare
+        && state.compare != options.compare
+    {
+        let line =
+            format!("`{compare}` is the mapping left of the divider; compare it with another");
+        return Err((cli::USAGE, line));
+    }
     let request = PictureRequest {
         what: match options.what {
             Picture::Window => What::Window,
@@ -74,7 +84,7 @@ fn draw(options: &RenderOptions) -> Result<(), String> {
             force: options.force,
         },
     };
-    picture::render(&state, &request)
+    picture::render(&state, &request).map_err(failed)
 }
 
 #[cfg(not(feature = "explorer"))]

@@ -5,31 +5,25 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// A layer and those that it may use. `main.rs` puts `app` and `cli` together; `lib.rs` lists them.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 8] = [
     ("math", &[]),
     ("mapping", &["math"]),
     ("optics", &["math"]),
     ("scene", &["math", "optics"]),
     ("imaging", &["math", "mapping"]),
-    ("lab", &["math", "mapping", "imaging"]),
     ("gpu", &["math", "mapping", "optics", "scene", "imaging"]),
-    (
-        "cli",
-        &["math", "mapping", "optics", "scene", "imaging", "lab"],
-    ),
+    ("cli", &["math", "mapping", "optics", "scene", "imaging"]),
     (
         "app",
-        &[
-            "math", "mapping", "optics", "scene", "imaging", "lab", "gpu",
-        ],
+        &["math", "mapping", "optics", "scene", "imaging", "gpu"],
     ),
 ];
 
 /// Outside crates that stay behind one layer's door, and the layers that may name them.
 const FENCED_CRATES: [(&str, &[&str]); 14] = [
     ("wgpu", &["gpu", "app"]),
-    ("bytemuck", &["gpu", "app"]),
-    ("pollster", &["gpu", "app"]),
+    ("bytemuck", &["gpu"]),
+    ("pollster", &["gpu"]),
     ("egui", &["app"]),
     ("eframe", &["app"]),
     ("egui_wgpu", &["app"]),

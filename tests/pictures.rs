@@ -22,7 +22,7 @@ use sixfold::math::{Vec3, inputs::even_directions};
 
 fn state() -> AppState {
     AppState {
-        environment: Environment::DirectionColour,
+        environment: Environment::DirectionColor,
         texel_budget: 6 * 128 * 128,
         tone: ToneCurve::Linear,
         ..AppState::default()
@@ -207,7 +207,7 @@ fn a_cancelled_picture_and_a_taken_name_leave_the_folder_as_it_was() {
         picture::make(
             &gpu,
             &state(),
-            surroundings(Environment::DirectionColour),
+            surroundings(Environment::DirectionColor),
             wanted,
             progress,
         )

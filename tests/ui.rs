@@ -48,7 +48,7 @@ fn open_unsettled(state: AppState, width: f32, height: f32, lost: Lost) -> Ui {
 fn small() -> AppState {
     AppState {
         texel_budget: 6 * 64 * 64,
-        environment: Environment::DirectionColour,
+        environment: Environment::DirectionColor,
         ..AppState::default()
     }
 }

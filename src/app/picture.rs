@@ -10,8 +10,7 @@ use crate::gpu::Gpu;
 use crate::imaging::{Progress, atomic, png_out};
 use crate::mapping::MappingId;
 
-/// Longest side of a picture in pixels: what every adapter's textures hold.
-pub const MAX_SIDE: u32 = 8192;
+pub use crate::imaging::png_out::MAX_SIDE;
 
 /// What is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,11 +3,9 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use crate::imaging::png_out::MAX_SIDE;
 use crate::mapping::{MappingId, UnknownMapping};
 use crate::scene::Object;
-
-/// Largest width and height of a picture, in pixels.
-pub const LARGEST_PX: u32 = 8192;
 
 /// Options of `sixfold render`. What is `None` stays as the scene has it.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
@@ -21,8 +19,14 @@ pub struct RenderOptions {
     /// What to draw: window, viewport, or panel:MAP
     #[arg(long, default_value = "window")]
     pub what: Picture,
-    /// Width and height in pixels, at most 8192 each
-    #[arg(long, value_name = "WxH", default_value = "1280x800", value_parser = size_px)]
+    /// Width and height in pixels, 1 to [`MAX_SIDE`] each.
+    #[arg(
+        long,
+        value_name = "WxH",
+        default_value = "1280x800",
+        value_parser = size_px,
+        help = format!("Width and height in pixels, at most {MAX_SIDE} each"),
+    )]
     pub size: [u32; 2],
     /// The mapping that object and sky look up (`sixfold maps` lists them)
     #[arg(long, value_name = "MAP")]
@@ -92,11 +96,11 @@ fn png_path(text: &str) -> Result<PathBuf, String> {
 fn size_px(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| {
         let side = text.parse().ok()?;
-        (1..=LARGEST_PX).contains(&side).then_some(side)
+        (1..=MAX_SIDE).contains(&side).then_some(side)
     };
     let size = text.split_once(['x', 'X']);
     size.and_then(|(width, height)| Some([side(width)?, side(height)?]))
-        .ok_or_else(|| format!("must be WIDTHxHEIGHT, like 1280x800, 1 to {LARGEST_PX} each"))
+        .ok_or_else(|| format!("must be WIDTHxHEIGHT, like 1280x800, 1 to {MAX_SIDE} each"))
 }
 
 fn object(text: &str) -> Result<Object, String> {

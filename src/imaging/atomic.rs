@@ -25,6 +25,20 @@ pub enum WriteError {
     },
 }
 
+/// Whether [`write_atomically`] would refuse the name: to be asked before long work, whose result could not be kept.
+///
+/// # Errors
+/// [`WriteError::NoFileName`] or [`WriteError::Exists`].
+pub fn check_name(path: &Path, force: bool) -> Result<(), WriteError> {
+    if path.file_name().is_none() {
+        Err(WriteError::NoFileName(path.to_owned()))
+    } else if !force && path.symlink_metadata().is_ok() {
+        Err(WriteError::Exists(path.to_owned()))
+    } else {
+        Ok(())
+    }
+}
+
 /// Writes `bytes` to `path`: a temporary file beside it, flushed to the disk, then renamed. Whoever looks at `path` sees the
 /// old state or all of the new one. An existing file is replaced only with `force`; without it the last step itself fails
 /// when a file has appeared meanwhile.
@@ -32,12 +46,7 @@ pub enum WriteError {
 /// # Errors
 /// See [`WriteError`]; the temporary file is gone then.
 pub fn write_atomically(path: &Path, force: bool, bytes: &[u8]) -> Result<(), WriteError> {
-    if path.file_name().is_none() {
-        return Err(WriteError::NoFileName(path.to_owned()));
-    }
-    if !force && path.symlink_metadata().is_ok() {
-        return Err(WriteError::Exists(path.to_owned()));
-    }
+    check_name(path, force)?;
     let failed = |cause: io::Error| {
         if cause.kind() == io::ErrorKind::AlreadyExists {
             WriteError::Exists(path.to_owned())

@@ -33,7 +33,8 @@ pub enum Environment {
     /// Meridians and parallels.
     Graticule,
     /// The direction as colour.
-    DirectionColour,
+    #[serde(rename = "direction-colour")] // as [`Environment::id`]
+    DirectionColor,
     /// Icosahedron and dodecahedron.
     IcosahedronCrosses,
     /// A latlong picture on disk: HDR, EXR, PNG or JPEG.
@@ -47,7 +48,7 @@ impl Environment {
         Self::Sunset,
         Self::LabelledFaces,
         Self::Graticule,
-        Self::DirectionColour,
+        Self::DirectionColor,
         Self::IcosahedronCrosses,
     ];
 
@@ -58,7 +59,7 @@ impl Environment {
             Self::Sunset => "Sunset".to_owned(),
             Self::LabelledFaces => "Labelled faces".to_owned(),
             Self::Graticule => "Graticule".to_owned(),
-            Self::DirectionColour => "Direction as colour".to_owned(),
+            Self::DirectionColor => "Direction as colour".to_owned(),
             Self::IcosahedronCrosses => "Icosahedron crosses".to_owned(),
             Self::File(path) => path
                 .file_name()
@@ -75,18 +76,21 @@ impl Environment {
             Self::Sunset => "sunset".to_owned(),
             Self::LabelledFaces => "labelled-faces".to_owned(),
             Self::Graticule => "graticule".to_owned(),
-            Self::DirectionColour => "direction-colour".to_owned(),
+            Self::DirectionColor => "direction-colour".to_owned(),
             Self::IcosahedronCrosses => "icosahedron-crosses".to_owned(),
             Self::File(path) => path.display().to_string(),
         }
     }
 
-    /// The built-in environment of that id; anything else is the path of a file.
+    /// The built-in environment of that id; anything else is the path of a file, made absolute: a scene that is opened
+    /// from elsewhere must find the file again.
     pub fn from_id(id: &str) -> Self {
         Self::ALL_BUILT_IN
             .into_iter()
             .find(|environment| environment.id() == id)
-            .unwrap_or_else(|| Self::File(PathBuf::from(id)))
+            .unwrap_or_else(|| {
+                Self::File(std::path::absolute(id).unwrap_or_else(|_| PathBuf::from(id)))
+            })
     }
 
     /// The latlong picture, computed ones at [`computed::DEFAULT_HEIGHT`].
@@ -116,7 +120,7 @@ impl Environment {
             Self::Sunset => embedded(include_bytes!("../../assets/sunset.exr")),
             Self::LabelledFaces => pattern(Pattern::LabelledFaces),
             Self::Graticule => pattern(Pattern::Graticule),
-            Self::DirectionColour => pattern(Pattern::DirectionColor),
+            Self::DirectionColor => pattern(Pattern::DirectionColor),
             Self::IcosahedronCrosses => pattern(Pattern::IcosahedronCrosses),
             Self::File(path) => load::load(path, progress),
         }

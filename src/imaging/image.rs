@@ -86,42 +86,6 @@ impl Image {
     /// Colour of the texel that contains (u, v).
     pub fn nearest(&self, u: f64, v: f64) -> [f32; 3] {
         let (x, y) = self.texel_at(u, v);
-        self.wrapped(i64::from(x), i64::from(y))
+        self.pixels[y as usize * self.width as usize + x as usize]
     }
-
-    /// Colour at (u, v) of a latlong picture, linear between the four texel centres around it. The date line joins, and
-    /// beyond a pole lies the row on the other side of it.
-    pub fn bilinear_latlong(&self, u: f64, v: f64) -> [f32; 3] {
-        let s = finite_or_zero(u).rem_euclid(1.0) * f64::from(self.width) - 0.5;
-        let t = finite_or_zero(v).clamp(0.0, 1.0) * f64::from(self.height) - 0.5;
-        let (x, y) = (s.floor(), t.floor());
-        let (right, down) = ((s - x) as f32, (t - y) as f32);
-        let (x, y) = (x as i64, y as i64);
-        let corners = [
-            (self.wrapped(x, y), (1.0 - right) * (1.0 - down)),
-            (self.wrapped(x + 1, y), right * (1.0 - down)),
-            (self.wrapped(x, y + 1), (1.0 - right) * down),
-            (self.wrapped(x + 1, y + 1), right * down),
-        ];
-        let mut sum = [0.0; 3];
-        for (color, weight) in corners {
-            for channel in 0..3 {
-                sum[channel] += color[channel] * weight;
-            }
-        }
-        sum
-    }
-
-    /// Texel (x, y) of the endless latlong picture, at most one row beyond a pole.
-    fn wrapped(&self, x: i64, y: i64) -> [f32; 3] {
-        let (width, height) = (i64::from(self.width), i64::from(self.height));
-        let inside = y.clamp(0, height - 1);
-        // Over the pole the longitude turns by half a circle.
-        let x = if inside == y { x } else { x + width / 2 };
-        self.pixels[(inside * width + x.rem_euclid(width)) as usize]
-    }
-}
-
-fn finite_or_zero(x: f64) -> f64 {
-    if x.is_finite() { x } else { 0.0 }
 }

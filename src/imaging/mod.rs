@@ -4,11 +4,13 @@
 //! - [`load`]: a latlong picture from a file, refused before any allocation when it declares too much;
 //! - [`Image`]: RGB in linear light; [`sanitize`] makes every value finite and remembers what it replaced;
 //! - [`computed`]: pictures that show where every direction went;
+//! - [`open_regular`]: a file, and nothing that would wait for ever;
 //! - [`png_out`] and [`atomic`]: pictures to files, whole or not at all.
 
 pub mod atomic;
 pub mod computed;
 mod environment;
+mod file;
 mod image;
 pub mod load;
 pub mod png_out;
@@ -17,6 +19,7 @@ pub mod sanitize;
 pub mod srgb;
 
 pub use environment::{Environment, FACE_COLORS};
+pub use file::open_regular;
 pub use image::{Image, ImageSizeError};
 pub use load::{LoadError, LoadProblem, Loaded};
 pub use progress::{Progress, Stage};

@@ -1,10 +1,11 @@
 //! PNG files that carry the scene they show.
 
-use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
+
+use super::open_regular;
 
 /// Key of the text chunk that holds the scene as JSON.
 pub const SCENE_KEY: &str = "sixfold-scene";
@@ -12,7 +13,10 @@ pub const SCENE_KEY: &str = "sixfold-scene";
 /// Longest scene text in bytes. A scene takes a few kilobytes; the cap stands against files made to exhaust memory.
 pub const MOST_SCENE_BYTES: usize = 1 << 20;
 
-/// Most chunks that are looked at: a picture of 8192 x 8192 has at most about 2^15 of the usual 8 KiB.
+/// Longest side of a picture in pixels: what every adapter's textures hold.
+pub const MAX_SIDE: u32 = 8192;
+
+/// Most chunks that are looked at: a picture of [`MAX_SIDE`] squared has at most about 2^15 of the usual 8 KiB.
 const MOST_CHUNKS: usize = 1 << 20;
 
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
@@ -110,14 +114,7 @@ pub fn read_scene(path: &Path) -> Result<Option<String>, PngError> {
         cause,
         path: path.to_owned(),
     };
-    let file = File::open(path).map_err(io)?;
-    if !file.metadata().map_err(io)?.is_file() {
-        let reason = "not a regular file".to_owned();
-        return Err(PngError::Damaged {
-            reason,
-            path: path.to_owned(),
-        });
-    }
+    let file = open_regular(path).map_err(io)?;
     scene_from(BufReader::new(file)).map_err(|reason| PngError::Damaged {
         reason,
         path: path.to_owned(),

@@ -51,7 +51,6 @@ impl BadTexels {
 pub struct Originals {
     /// (index, colour), index ascending.
     kept: Vec<(u32, [f32; 3])>,
-    dropped: u64,
 }
 
 impl Originals {
@@ -74,11 +73,6 @@ impl Originals {
     pub fn is_empty(&self) -> bool {
         self.kept.is_empty()
     }
-
-    /// How many replaced texels lie beyond [`MOST_ORIGINALS`] and are forgotten.
-    pub fn dropped(&self) -> u64 {
-        self.dropped
-    }
 }
 
 /// Counts and replaces every component that is NaN, infinite, negative or above [`LARGEST`]. -0 stays.
@@ -96,11 +90,10 @@ pub fn sanitize(image: &mut Image) -> (BadTexels, Originals) {
         bad.negative += any(|c| c.is_finite() && c < 0.0);
         bad.too_bright += any(|c| c.is_finite() && c > LARGEST);
         *pixel = original.map(replaced);
-        match u32::try_from(index) {
-            Ok(index) if originals.kept.len() < MOST_ORIGINALS => {
-                originals.kept.push((index, original));
-            }
-            _ => originals.dropped += 1,
+        if originals.kept.len() < MOST_ORIGINALS
+            && let Ok(index) = u32::try_from(index)
+        {
+            originals.kept.push((index, original));
         }
     }
     (bad, originals)

@@ -24,9 +24,6 @@ pub trait Evaluator {
 /// Why an evaluator could not run.
 #[derive(Debug, thiserror::Error)]
 pub enum EvaluatorError {
-    /// The evaluator computes one direction only.
-    #[error("the evaluator `{0}` has no inverse")]
-    NoInverse(&'static str),
     /// The device behind it failed.
     #[error("the device failed: {0}")]
     Device(String),

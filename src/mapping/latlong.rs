@@ -57,13 +57,7 @@ impl Mapping for Latlong {
         if !point.is_on(1) {
             return None;
         }
-        let (sin_longitude, cos_longitude) = (point.u - R::half()).sin_cos_turns();
-        let (sin_colatitude, cos_colatitude) = (point.v * R::half()).sin_cos_turns();
-        Some(Vec3::new(
-            sin_colatitude * sin_longitude,
-            cos_colatitude,
-            sin_colatitude * cos_longitude,
-        ))
+        Some(direction(longitude(point.u), colatitude(point.v)))
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
@@ -98,6 +92,28 @@ impl Mapping for Latlong {
             Step::new("v", "v = θ/π", format!("{colatitude}/π = {}", p.v)),
         ]
     }
+}
+
+/// Sine and cosine of the longitude of a column. With [`colatitude`] and [`direction`] it makes the inverse: whoever walks
+/// a whole picture takes each column and each row once.
+pub fn longitude<R: Real>(u: R) -> (R, R) {
+    (u - R::half()).sin_cos_turns()
+}
+
+/// Sine and cosine of the colatitude of a row.
+pub fn colatitude<R: Real>(v: R) -> (R, R) {
+    (v * R::half()).sin_cos_turns()
+}
+
+/// The unit direction from (sine, cosine) of its longitude and of its colatitude.
+pub fn direction<R: Real>(longitude: (R, R), colatitude: (R, R)) -> Vec3<R> {
+    let ((sin_longitude, cos_longitude), (sin_colatitude, cos_colatitude)) =
+        (longitude, colatitude);
+    Vec3::new(
+        sin_colatitude * sin_longitude,
+        cos_colatitude,
+        sin_colatitude * cos_longitude,
+    )
 }
 
 /// The first seed's numbers: its axes have z up.

@@ -130,7 +130,4 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
     fn is_finite(self) -> bool {
         self.value.is_finite()
     }
-    fn is_sign_negative(self) -> bool {
-        self.value.is_sign_negative()
-    }
 }

@@ -38,8 +38,6 @@ pub trait Real:
     fn sin_cos_turns(self) -> (Self, Self);
     /// True for neither NaN nor infinite.
     fn is_finite(self) -> bool;
-    /// True when the sign bit is set, on -0 too.
-    fn is_sign_negative(self) -> bool;
 
     /// 0.
     fn zero() -> Self {
@@ -189,9 +187,6 @@ impl Real for f32 {
     fn is_finite(self) -> bool {
         f32::is_finite(self)
     }
-    fn is_sign_negative(self) -> bool {
-        f32::is_sign_negative(self)
-    }
 }
 
 impl Real for f64 {
@@ -217,8 +212,5 @@ impl Real for f64 {
     }
     fn is_finite(self) -> bool {
         f64::is_finite(self)
-    }
-    fn is_sign_negative(self) -> bool {
-        f64::is_sign_negative(self)
     }
 }

@@ -6,6 +6,7 @@ use sixfold::imaging::computed::{self, Pattern, dodecahedron_vertices, icosahedr
 use sixfold::imaging::load::{self, LoadProblem};
 use sixfold::imaging::srgb::linear_from_srgb8;
 use sixfold::imaging::{FACE_COLORS, Image, Progress};
+use sixfold::math::Vec3;
 
 fn picture(pattern: Pattern, height: u32) -> Image {
     computed::compute(pattern, height, &Progress::new()).unwrap()
@@ -115,7 +116,8 @@ fn direction_color_is_the_inverse_of_latlong() {
 
 #[test]
 fn crosses_stand_at_dual_vertices() {
-    let (twelve, twenty) = (icosahedron_vertices(), dodecahedron_vertices());
+    let [twelve, twenty] = [icosahedron_vertices(), dodecahedron_vertices()]
+        .map(|vertices| vertices.into_iter().map(Vec3::to_f64).collect::<Vec<_>>());
     assert_eq!((twelve.len(), twenty.len()), (12, 20));
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     // Circumradius over inradius of the icosahedron: three corners at cosine 0.79465 around each face's middle.

@@ -1,7 +1,8 @@
 //! The vertices of the icosahedron and of its dual dodecahedron as crosses: 32 marks of equal size, spread over the whole
 //! sphere, that show how each mapping stretches (the paper's Figure 10 and those after it).
 
-use super::{blend, coverage, cross, dot, normalized};
+use super::{blend, coverage};
+use crate::math::Vec3;
 
 const PAPER: [f32; 3] = [0.85; 3];
 const RED: [f32; 3] = [0.70, 0.012, 0.012];
@@ -15,14 +16,14 @@ const HALF_WIDTH_RAD: f64 = 0.6 * std::f64::consts::PI / 180.0;
 const PHI: f64 = std::f64::consts::GOLDEN_RATIO;
 
 /// The 12 unit vertices of the icosahedron: (0, ±1, ±phi) and its cyclic turns.
-pub fn icosahedron_vertices() -> Vec<[f64; 3]> {
+pub fn icosahedron_vertices() -> Vec<Vec3<f64>> {
     let mut vertices = Vec::with_capacity(12);
     for turn in 0..3 {
         for (one, phi) in [(1.0, PHI), (-1.0, PHI), (1.0, -PHI), (-1.0, -PHI)] {
             let mut vertex = [0.0; 3];
             vertex[(turn + 1) % 3] = one;
             vertex[(turn + 2) % 3] = phi;
-            vertices.push(normalized(vertex));
+            vertices.push(Vec3::from_f64(vertex).normalized());
         }
     }
     vertices
@@ -30,17 +31,15 @@ pub fn icosahedron_vertices() -> Vec<[f64; 3]> {
 
 /// The 20 unit vertices of the dual dodecahedron: the middles of the icosahedron's faces, (±1, ±1, ±1) and
 /// (±1/phi, 0, ±phi) with its cyclic turns.
-pub fn dodecahedron_vertices() -> Vec<[f64; 3]> {
+pub fn dodecahedron_vertices() -> Vec<Vec3<f64>> {
     let corners = icosahedron_vertices();
     // Neighbours are 63.4 degrees apart (cosine 1/sqrt 5), all others at least 116.6.
-    let adjacent = |a: usize, b: usize| dot(corners[a], corners[b]) > 0.0;
+    let adjacent = |a: usize, b: usize| corners[a].dot(corners[b]) > 0.0;
     let mut vertices = Vec::with_capacity(20);
     for a in 0..corners.len() {
         for b in (0..a).filter(|&b| adjacent(a, b)) {
             for c in (0..b).filter(|&c| adjacent(a, c) && adjacent(b, c)) {
-                vertices.push(normalized(
-                    [0, 1, 2].map(|i| corners[a][i] + corners[b][i] + corners[c][i]),
-                ));
+                vertices.push((corners[a] + corners[b] + corners[c]).normalized());
             }
         }
     }
@@ -48,9 +47,9 @@ pub fn dodecahedron_vertices() -> Vec<[f64; 3]> {
 }
 
 struct Cross {
-    center: [f64; 3],
-    east: [f64; 3],
-    north: [f64; 3],
+    center: Vec3<f64>,
+    east: Vec3<f64>,
+    north: Vec3<f64>,
     color: [f32; 3],
 }
 
@@ -58,14 +57,14 @@ pub(super) struct Crosses(Vec<Cross>);
 
 impl Crosses {
     pub(super) fn new() -> Self {
-        let colored = |vertices: Vec<[f64; 3]>, color| {
+        let colored = |vertices: Vec<Vec3<f64>>, color| {
             vertices.into_iter().map(move |center| {
                 // No vertex lies on a pole. In the left-handed frame up x outwards points east.
-                let east = normalized(cross([0.0, 1.0, 0.0], center));
+                let east = Vec3::new(0.0, 1.0, 0.0).cross(center).normalized();
                 Cross {
                     center,
                     east,
-                    north: cross(center, east),
+                    north: center.cross(east),
                     color,
                 }
             })
@@ -74,14 +73,14 @@ impl Crosses {
         Self(red.chain(colored(dodecahedron_vertices(), BLUE)).collect())
     }
 
-    pub(super) fn color(&self, dir: [f64; 3], texel_rad: f64) -> [f32; 3] {
+    pub(super) fn color(&self, dir: Vec3<f64>, texel_rad: f64) -> [f32; 3] {
         // No two vertices are nearer than 37 degrees, so only one cross can be here.
         let reach = (HALF_LENGTH_RAD + HALF_WIDTH_RAD + texel_rad).cos();
-        let Some(cross) = self.0.iter().find(|cross| dot(dir, cross.center) > reach) else {
+        let Some(cross) = self.0.iter().find(|cross| dir.dot(cross.center) > reach) else {
             return PAPER;
         };
-        let axis = dot(dir, cross.center);
-        let (e, n) = (dot(dir, cross.east), dot(dir, cross.north));
+        let axis = dir.dot(cross.center);
+        let (e, n) = (dir.dot(cross.east), dir.dot(cross.north));
         // Each arm lies along a great circle: the angle along it and the angle off it.
         let arm = |along: f64, off: f64| {
             let beyond = along.atan2(axis).abs() - HALF_LENGTH_RAD;

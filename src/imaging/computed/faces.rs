@@ -4,6 +4,8 @@ use super::super::environment::FACE_COLORS;
 use super::super::srgb::linear_from_srgb8;
 use super::strokes::Strokes;
 use super::{blend, coverage};
+use crate::mapping::cube_face::{largest_component, to_frame};
+use crate::math::Vec3;
 
 /// In the order of the charts.
 const NAMES: [&str; 6] = ["+X", "-X", "+Y", "-Y", "+Z", "-Z"];
@@ -46,8 +48,10 @@ impl Faces {
         }
     }
 
-    pub(super) fn color(&self, dir: [f64; 3], texel_rad: f64) -> [f32; 3] {
-        let (face, a, b) = face_point(dir);
+    pub(super) fn color(&self, dir: Vec3<f64>, texel_rad: f64) -> [f32; 3] {
+        let face = largest_component(dir);
+        let (sc, tc, ma) = to_frame(face, dir);
+        let (face, a, b) = (face as usize, sc / ma, tc / ma);
         // An angle dt at distance r from the axis, r^2 = 1 + a^2 + b^2, covers between r dt and r^2 dt of the plane.
         let texel = texel_rad * (1.0 + a * a + b * b).powf(0.75);
         let mut color = self.colors[face];
@@ -69,18 +73,4 @@ impl Faces {
         let border = 1.0 - a.abs().max(b.abs());
         blend(color, [0.005; 3], coverage(border, BORDER_WIDTH, texel))
     }
-}
-
-/// Chart and gnomonic coordinates (a to the right, b down as seen from inside) of a direction: the cube's face table.
-fn face_point([x, y, z]: [f64; 3]) -> (usize, f64, f64) {
-    let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
-    let (positive, negative, major) = if az >= ax && az >= ay {
-        ((4, x, -y), (5, -x, -y), z)
-    } else if ay >= ax {
-        ((2, x, z), (3, x, -z), y)
-    } else {
-        ((0, -z, -y), (1, z, -y), x)
-    };
-    let (face, sc, tc) = if major > 0.0 { positive } else { negative };
-    (face, sc / major.abs(), tc / major.abs())
 }

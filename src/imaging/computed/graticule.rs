@@ -2,6 +2,7 @@
 
 use super::strokes::Strokes;
 use super::{blend, coverage};
+use crate::math::Vec3;
 
 const PAPER: [f32; 3] = [0.82, 0.80, 0.74];
 const PAPER_SOUTH: [f32; 3] = [0.62, 0.68, 0.74];
@@ -46,7 +47,7 @@ impl Graticule {
         }
     }
 
-    pub(super) fn color(&self, [x, y, z]: [f64; 3], texel_rad: f64) -> [f32; 3] {
+    pub(super) fn color(&self, Vec3 { x, y, z }: Vec3<f64>, texel_rad: f64) -> [f32; 3] {
         let texel = texel_rad.to_degrees();
         let cos_lat = x.hypot(z);
         let lat = y.atan2(cos_lat).to_degrees();

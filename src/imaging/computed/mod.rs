@@ -8,11 +8,13 @@ mod faces;
 mod graticule;
 mod strokes;
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::load::{LoadProblem, MOST_HEIGHT};
 use super::{Image, Progress, Stage};
+use crate::mapping::latlong;
+use crate::math::Vec3;
 
 pub use crosses::{dodecahedron_vertices, icosahedron_vertices};
 
@@ -51,7 +53,8 @@ pub fn compute(pattern: Pattern, height: u32, progress: &Progress) -> Result<Ima
             })
         }
         Pattern::DirectionColor => rasterize(height, progress, |dir, _| {
-            dir.map(|component| ((component + 1.0) / 2.0) as f32)
+            dir.to_array()
+                .map(|component| ((component + 1.0) / 2.0) as f32)
         }),
         Pattern::IcosahedronCrosses => {
             let crosses = crosses::Crosses::new();
@@ -66,7 +69,7 @@ pub fn compute(pattern: Pattern, height: u32, progress: &Progress) -> Result<Ima
 fn rasterize(
     height: u32,
     progress: &Progress,
-    color: impl Fn([f64; 3], f64) -> [f32; 3] + Sync,
+    color: impl Fn(Vec3<f64>, f64) -> [f32; 3] + Sync,
 ) -> Result<Image, LoadProblem> {
     if height == 0 || height > MOST_HEIGHT {
         let (width, height) = (2 * u64::from(height), u64::from(height));
@@ -77,17 +80,17 @@ fn rasterize(
     let mut pixels = super::load::zeroed([0.0; 3], rows * width)?;
 
     // Longitudes repeat in every row.
-    let u_at = |x: usize| (x as f64 + 0.5) / width as f64;
-    let longitudes: Vec<(f64, f64)> = (0..width).map(|x| sin_cos_longitude(u_at(x))).collect();
+    let longitude = |x: usize| latlong::longitude((x as f64 + 0.5) / width as f64);
+    let longitudes: Vec<(f64, f64)> = (0..width).map(longitude).collect();
     let texel_rad = PI / f64::from(height);
     let done = AtomicUsize::new(0);
     let fill = |y: usize, row: &mut [[f32; 3]]| {
         if progress.is_cancelled() {
             return;
         }
-        let colatitude = sin_cos_colatitude((y as f64 + 0.5) / rows as f64);
+        let colatitude = latlong::colatitude((y as f64 + 0.5) / rows as f64);
         for (texel, longitude) in row.iter_mut().zip(&longitudes) {
-            *texel = color(dir_from_latlong(*longitude, colatitude), texel_rad);
+            *texel = color(latlong::direction(*longitude, colatitude), texel_rad);
         }
         progress.step(done.fetch_add(1, Ordering::Relaxed) + 1, rows);
     };
@@ -114,22 +117,6 @@ fn rasterize(
     })
 }
 
-/// Unit direction of a point of the latlong picture from sine and cosine of its longitude and colatitude:
-/// the centre of the picture looks along +z, +x lies to the right, +y is up (spec of `latlong`).
-///
-/// The one place in this layer that knows the orientation; `mapping::latlong`'s inverse may take its place.
-fn dir_from_latlong((sin_lon, cos_lon): (f64, f64), (sin_col, cos_col): (f64, f64)) -> [f64; 3] {
-    [sin_lon * sin_col, cos_col, cos_lon * sin_col]
-}
-
-fn sin_cos_longitude(u: f64) -> (f64, f64) {
-    ((u - 0.5) * TAU).sin_cos()
-}
-
-fn sin_cos_colatitude(v: f64) -> (f64, f64) {
-    (v * PI).sin_cos()
-}
-
 /// Share of a texel that ink covers: 1 where `distance` is well inside of `half_width`, 0 well outside, a ramp of the
 /// texel's width between. All three in the same unit.
 fn coverage(distance: f64, half_width: f64, texel: f64) -> f32 {
@@ -138,21 +125,4 @@ fn coverage(distance: f64, half_width: f64, texel: f64) -> f32 {
 
 fn blend(below: [f32; 3], above: [f32; 3], amount: f32) -> [f32; 3] {
     [0, 1, 2].map(|c| below[c] + (above[c] - below[c]) * amount)
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn normalized(a: [f64; 3]) -> [f64; 3] {
-    let length = dot(a, a).sqrt();
-    a.map(|component| component / length)
 }

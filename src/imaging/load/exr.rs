@@ -5,7 +5,6 @@
 //! caught: damaged B44 blocks index out of bounds there (and a panic in that crate's own thread pool would end the process).
 
 use std::io::Cursor;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use exr::block::UncompressedBlock;
 use exr::block::chunk::{Chunk, CompressedBlock};
@@ -89,10 +88,10 @@ fn read_meta(bytes: &[u8]) -> Result<MetaData, LoadProblem> {
     caught(|| MetaData::read_from_buffered(bytes, false).map_err(damaged))
 }
 
-/// Runs code that may panic on bad files. `AssertUnwindSafe`: after a panic everything it touched is dropped.
+/// Runs code that may panic on bad files.
 fn caught<T>(run: impl FnOnce() -> Result<T, LoadProblem>) -> Result<T, LoadProblem> {
-    catch_unwind(AssertUnwindSafe(run))
-        .unwrap_or_else(|_| Err(damaged("the decoder stumbled over impossible values")))
+    super::caught::caught(run)
+        .unwrap_or_else(|| Err(damaged("the decoder stumbled over impossible values")))
 }
 
 /// Whether what the header declares, of every layer, can be unpacked within the limits.

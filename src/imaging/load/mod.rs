@@ -3,20 +3,20 @@
 //! The declared size is read from the header and judged before a decoder sees the file: failed allocations end the
 //! process and cannot be caught. Reading a header holds no more than the header's own bytes.
 
+mod caught;
 mod exr;
 mod hdr;
 mod header;
 mod jpeg;
 mod png;
 
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
 use thiserror::Error;
 
 use super::sanitize::{BadTexels, Originals, sanitize};
-use super::{Image, Progress, Stage};
+use super::{Image, Progress, Stage, open_regular};
 
 /// Most texels in a row: twice the largest height.
 pub const MOST_WIDTH: u32 = 16384;
@@ -108,9 +108,6 @@ pub enum LoadProblem {
     /// The system refused.
     #[error("the file cannot be read ({0}); check its name and rights")]
     Io(io::Error),
-    /// A folder, a device, a pipe.
-    #[error("this is not a regular file; choose a picture file")]
-    NotAFile,
     /// Too many bytes.
     #[error(
         "the file has {bytes} bytes, the limit is {MOST_FILE_BYTES}; store it compressed or smaller"
@@ -234,18 +231,12 @@ fn format_of(bytes: &[u8]) -> Result<Format, LoadProblem> {
 fn read(path: &Path, progress: &Progress) -> Result<Vec<u8>, LoadProblem> {
     const STEP: usize = 1 << 22;
     progress.enter(Stage::Reading);
-    // A pipe would wait for ever when opened, so its kind is asked for first.
-    let kind = std::fs::metadata(path).map_err(LoadProblem::Io)?;
-    if !kind.is_file() {
-        return Err(LoadProblem::NotAFile);
-    }
-    let length = kind.len();
+    let file = open_regular(path).map_err(LoadProblem::Io)?;
+    let length = file.metadata().map_err(LoadProblem::Io)?.len();
     if length > MOST_FILE_BYTES {
         return Err(LoadProblem::FileTooLong { bytes: length });
     }
-    let mut file = File::open(path)
-        .map_err(LoadProblem::Io)?
-        .take(MOST_FILE_BYTES + 1);
+    let mut file = file.take(MOST_FILE_BYTES + 1);
     let mut bytes = reserved(length as usize)?;
     while (&mut file)
         .take(STEP as u64)

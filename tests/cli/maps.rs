@@ -1,0 +1,55 @@
+//! `sixfold maps`.
+
+use super::{MAPS, run};
+
+#[test]
+fn maps_lists_every_mapping() {
+    let table = run(&["maps"], "");
+    assert_eq!((table.status, table.err.as_str()), (0, ""));
+    let ids: Vec<&str> = table
+        .out
+        .lines()
+        .map(|l| l.split(' ').next().unwrap())
+        .collect();
+    assert_eq!(ids[0], "ID");
+    assert_eq!(ids[1..], MAPS);
+    let column = table.out.lines().next().unwrap().find("SOURCE").unwrap();
+    for line in table.out.lines() {
+        let at: String = line.chars().skip(column - 2).take(3).collect();
+        assert!(
+            at.starts_with("  ") && !at.ends_with(' '),
+            "columns do not line up: {line}"
+        );
+    }
+
+    let json: serde_json::Value = serde_json::from_str(&run(&["maps", "--json"], "").out).unwrap();
+    let list = json.as_array().unwrap();
+    assert_eq!(list.len(), MAPS.len());
+    for (entry, id) in list.iter().zip(MAPS) {
+        assert_eq!(entry["id"], id);
+        for key in [
+            "name",
+            "charts",
+            "coverage",
+            "conventions",
+            "evaluators",
+            "source",
+        ] {
+            assert!(!entry[key].is_null(), "{id} has no {key}");
+        }
+        // Every name in the list is accepted.
+        for (key, option) in [
+            ("conventions", "--convention"),
+            ("evaluators", "--evaluator"),
+        ] {
+            for named in entry[key].as_array().unwrap() {
+                let name = named["id"].as_str().unwrap();
+                assert_eq!(
+                    run(&["eval", id, option, name], "1,2,3\n").status,
+                    0,
+                    "{id} {name}"
+                );
+            }
+        }
+    }
+}
