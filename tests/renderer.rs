@@ -368,13 +368,4 @@ fn overlays_change_the_picture_each_in_its_own_way() {
             assert!(a[1] != b[1], "panel {i}");
         }
     }
-    // The axes are the front end's.
-    let report = renderer
-        .draw(&with(Overlays {
-            grid: true,
-            axes: true,
-            ..off
-        }))
-        .unwrap();
-    assert!(report.ran.is_empty());
 }

@@ -14,7 +14,6 @@ pub fn frame_of(state: &AppState, laid_out: &[(ViewKey, [u32; 2])], complete: bo
         great_circles: state.overlays.great_circles,
         face_tint: state.overlays.face_tint,
         grid: state.overlays.grid,
-        axes: state.overlays.axes,
     };
     let mut frame = Frame {
         texel_budget: state.texel_budget,

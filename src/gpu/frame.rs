@@ -83,10 +83,6 @@ impl ViewportFrame {
                 .filter(|_| self.show_probe)
                 .map_or([0.0; 3], |p| p.to_array()),
             show_probe: self.show_probe && probe.is_some(),
-            overlays: Overlays {
-                axes: false,
-                ..self.overlays
-            },
             ..self
         }
     }
@@ -132,10 +128,6 @@ impl PanelFrame {
                 self.window
             } else {
                 [0.0, 0.0, 1.0, 1.0]
-            },
-            overlays: Overlays {
-                axes: false,
-                ..self.overlays
             },
             ..self
         }

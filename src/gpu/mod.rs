@@ -22,7 +22,7 @@ pub use context::{Gpu, GpuError};
 pub use environment::{EnvironmentSource, EnvironmentTexture};
 pub use frame::{Frame, PanelFrame, ViewportFrame};
 pub use map::map_size;
-pub use overlay::{FACE_COLORS, GREAT_CIRCLE_COLORS, Overlays};
+pub use overlay::{GREAT_CIRCLE_COLORS, Overlays};
 pub use plan::Node;
 pub use readback::{MapPixels, RgbaPixels, TexelRead};
 pub use renderer::{RenderError, Renderer};

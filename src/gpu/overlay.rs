@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use serde::{Deserialize, Serialize};
 
+use crate::imaging::FACE_COLORS;
 use crate::mapping::cube_face::GREAT_CIRCLES;
 
 /// Colours of the great circles A to F, sRGB. The palette of Okabe and Ito (Color universal design, 2008), which people
@@ -17,18 +18,7 @@ pub const GREAT_CIRCLE_COLORS: [[u8; 3]; 6] = [
     [204, 121, 167], // F reddish purple
 ];
 
-/// Tints of the faces +x -x +y -y +z -z, sRGB. From the light scheme of Tol (Colour schemes, SRON 2021), made for filling
-/// areas; opposite faces are far apart.
-pub const FACE_COLORS: [[u8; 3]; 6] = [
-    [238, 136, 102], // +x orange
-    [68, 187, 153],  // -x mint
-    [119, 170, 221], // +y light blue
-    [238, 221, 136], // -y light yellow
-    [255, 170, 187], // +z pink
-    [187, 204, 51],  // -z pear
-];
-
-/// What is painted over the environment; all off by default.
+/// What is painted over the environment; all off by default. The axes, the probe's vectors and all text are the front end's.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Overlays {
@@ -38,8 +28,6 @@ pub struct Overlays {
     pub face_tint: bool,
     /// Lines of equal u and v of the mapping that is looked up, at every eighth.
     pub grid: bool,
-    /// The world's axes; the renderer leaves them to the front end, which can write beside them.
-    pub axes: bool,
 }
 
 impl Overlays {

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::imaging::srgb::srgb_from_linear;
+
 /// How light beyond what a screen can show is brought into its range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -80,16 +82,6 @@ impl ToneCurve {
             Self::Reinhard => 1,
             Self::Filmic => 2,
         }
-    }
-}
-
-/// IEC 61966-2-1, clipped to [0, 1].
-fn srgb_from_linear(x: f32) -> f32 {
-    let x = x.clamp(0.0, 1.0);
-    if x <= 0.003_130_8 {
-        12.92 * x
-    } else {
-        1.055 * x.powf(1.0 / 2.4) - 0.055
     }
 }
 
