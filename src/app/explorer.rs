@@ -216,7 +216,7 @@ impl Explorer {
         show: impl FnOnce(&mut Model<'_>),
     ) -> (Vec<Command>, Vec<(ViewKey, [u32; 2])>) {
         let adapter = self.gpu.name();
-        let jobs = self.job_lines();
+        let jobs = self.jobs();
         let mut model = Model {
             state: &self.state,
             history: &self.history,

@@ -208,6 +208,12 @@ impl Camera {
         )
     }
 
+    /// World to clip space; see [`Camera::clip_from_view`].
+    #[must_use]
+    pub fn clip_from_world(&self, aspect: f32) -> Mat4 {
+        self.clip_from_view(aspect) * self.view_from_world()
+    }
+
     /// The eye and the three vectors that span the screen.
     #[must_use]
     pub fn ray_frame(&self, aspect: f32) -> RayFrame {
@@ -241,7 +247,22 @@ impl Camera {
     pub fn project(&self, point: Vec3, aspect: f32) -> Option<(f32, f32)> {
         let Axes { right, up, forward } = self.axes();
         let view = Vec3::new(right.dot(point), up.dot(point), forward.dot(point));
-        let view = view + self.sanitized().distance * Vec3::Z;
+        self.uv_of_view(view + self.sanitized().distance * Vec3::Z, aspect)
+    }
+
+    /// Where the point at infinity in direction `dir` (of any length) is seen, a star of the sky; `None` when it is
+    /// not in front of the eye.
+    #[must_use]
+    pub fn project_direction(&self, dir: Vec3, aspect: f32) -> Option<(f32, f32)> {
+        let Axes { right, up, forward } = self.axes();
+        let dir = dir.try_normalize()?;
+        self.uv_of_view(
+            Vec3::new(right.dot(dir), up.dot(dir), forward.dot(dir)),
+            aspect,
+        )
+    }
+
+    fn uv_of_view(&self, view: Vec3, aspect: f32) -> Option<(f32, f32)> {
         let (half_width, half_height) = self.half_extent(aspect);
         let x = view.x / (view.z * half_width);
         let y = view.y / (view.z * half_height);
@@ -286,36 +307,38 @@ mod tests {
         (0..=8).flat_map(|i| (0..=8).map(move |j| (i as f32 / 8.0, j as f32 / 8.0)))
     }
 
-    fn clip_from_world(camera: &Camera, aspect: f32) -> Mat4 {
-        camera.clip_from_view(aspect) * camera.view_from_world()
-    }
-
     /// Worst distance in uv, times the half height of the screen: the error as an angle near the middle.
-    fn worst_round_trip(perturb: Vec3) -> f32 {
-        let mut worst = 0.0f32;
+    fn worst_round_trip(perturb: Vec3) -> (f32, f32) {
+        let (mut worst_dir, mut worst_point) = (0.0f32, 0.0f32);
         for camera in cameras() {
             for aspect in [0.5, 1.0, 16.0 / 9.0] {
                 let scale = (0.5 * camera.fov_y_rad).tan();
                 for (u, v) in screen() {
                     let ray = camera.ray((u, v), aspect);
-                    let point = ray.origin + camera.distance * (ray.dir + perturb);
+                    let dir = ray.dir + perturb;
+                    let (a, b) = camera.project_direction(dir, aspect).unwrap();
+                    worst_dir = worst_dir.max(scale * (a - u).abs().max((b - v).abs()));
+                    let point = ray.origin + camera.distance * dir;
                     let (a, b) = camera.project(point, aspect).unwrap();
-                    worst = worst.max(scale * (a - u).abs().max((b - v).abs()));
+                    worst_point = worst_point.max(scale * (a - u).abs().max((b - v).abs()));
                 }
             }
         }
-        worst
+        (worst_dir, worst_point)
     }
 
     #[test]
     fn a_ray_is_seen_where_it_was_shot() {
-        let observed = worst_round_trip(Vec3::ZERO);
-        println!("round trip: {observed:e}");
+        let (dir, point) = worst_round_trip(Vec3::ZERO);
+        println!("round trip: direction {dir:e}, point {point:e}");
         // Widest case: the corner at 120 degrees multiplies the rounding of a unit vector by 1 / cos^2 of 74 degrees.
-        assert!(observed < 4e-6, "{observed:e}");
-        assert!(observed > 4e-8, "budget far above {observed:e}");
+        for observed in [dir, point] {
+            assert!(observed < 4e-6, "{observed:e}");
+            assert!(observed > 4e-8, "budget far above {observed:e}");
+        }
         // Control: a direction off by a tenth of a milliradian is seen.
-        assert!(worst_round_trip(Vec3::new(1e-4, 0.0, 0.0)) > 1e-5);
+        let (dir, point) = worst_round_trip(Vec3::new(1e-4, 0.0, 0.0));
+        assert!(dir > 1e-5 && point > 1e-5);
     }
 
     #[test]
@@ -323,7 +346,7 @@ mod tests {
         let mut worst = 0.0f32;
         for camera in cameras() {
             for aspect in [0.5, 2.0] {
-                let clip_from_world = clip_from_world(&camera, aspect);
+                let clip_from_world = camera.clip_from_world(aspect);
                 for point in [Vec3::ZERO, Vec3::X, Vec3::new(0.2, -0.5, 0.3)] {
                     let clip = clip_from_world * point.extend(1.0);
                     let Some((u, v)) = camera.project(point, aspect) else {
@@ -340,7 +363,7 @@ mod tests {
         assert!(worst < 2e-5 && worst > 0.0, "{worst:e}");
         // Control: the mirrored frame would put +x on the left.
         let front = Camera::default();
-        let clip = clip_from_world(&front, 1.0) * Vec3::X.extend(1.0);
+        let clip = front.clip_from_world(1.0) * Vec3::X.extend(1.0);
         assert!(clip.x / clip.w > 0.5 && -clip.x / clip.w < 0.0);
     }
 
@@ -408,16 +431,25 @@ mod tests {
                 };
                 let clean = camera.sanitized();
                 assert_eq!(clean, clean.sanitized());
-                assert!(clip_from_world(&camera, a).is_finite());
+                assert!(camera.clip_from_world(a).is_finite());
                 let ray = camera.ray((a, b), b);
                 assert!(ray.origin.is_finite() && (ray.dir.length() - 1.0).abs() < 1e-5);
-                let seen = camera.project(Vec3::new(a, b, a), a);
-                assert!(seen.is_none_or(|(u, v)| u.is_finite() && v.is_finite()));
+                for seen in [
+                    camera.project(Vec3::new(a, b, a), a),
+                    camera.project_direction(Vec3::new(a, b, b), b),
+                ] {
+                    assert!(seen.is_none_or(|(u, v)| u.is_finite() && v.is_finite()));
+                }
                 camera.orbit(a, b);
                 camera.zoom(a);
                 assert_eq!(camera, camera.sanitized());
             }
         }
+        assert!(
+            Camera::default()
+                .project_direction(Vec3::ZERO, 1.0)
+                .is_none()
+        );
         assert!(Camera::default().project(Vec3::NEG_Z * 9.0, 1.0).is_none());
     }
 

@@ -56,7 +56,8 @@ pub(super) fn write_scene(scene: &AppState, path: &Path, force: bool) -> Result<
 }
 
 impl Explorer {
-    pub(super) fn job_lines(&self) -> Vec<JobLine> {
+    /// The jobs under way.
+    pub fn jobs(&self) -> Vec<JobLine> {
         fn line<T: Send + 'static>(job: &Job<T>) -> JobLine {
             let stage = job.progress.stage();
             let title = match stage {
