@@ -42,8 +42,16 @@ impl Mapping for Eac {
         };
         cube_face::steps(dir, |a, b| {
             [
-                Step::new("u", "u = 1/2 + (2/π) atan a", format!("1/2 + (2/π) atan {a} = {}", point.u)),
-                Step::new("v", "v = 1/2 + (2/π) atan b", format!("1/2 + (2/π) atan {b} = {}", point.v)),
+                Step::new(
+                    "u",
+                    "u = 1/2 + (2/π) atan a",
+                    format!("1/2 + (2/π) atan {a} = {}", point.u),
+                ),
+                Step::new(
+                    "v",
+                    "v = 1/2 + (2/π) atan b",
+                    format!("1/2 + (2/π) atan {b} = {}", point.v),
+                ),
             ]
         })
     }
