@@ -1,5 +1,7 @@
 //! Where a direction lands: charts, their coordinates and what is said about a mapping.
 
+use std::fmt::Display;
+
 use serde::{Deserialize, Serialize};
 
 use super::convention::{Convention, Erratum};
@@ -29,6 +31,14 @@ impl<R: Real> ChartPoint<R> {
         Self {
             u: self.u.clamp_unit(),
             v: self.v.clamp_unit(),
+            ..self
+        }
+    }
+
+    /// The same place with v counted from the other end; its own inverse.
+    pub fn flipped(self) -> Self {
+        Self {
+            v: R::one() - self.v,
             ..self
         }
     }
@@ -84,6 +94,25 @@ impl Step {
             with_numbers,
         }
     }
+
+    /// The length `n` of a direction.
+    pub(super) fn length<R: Display>(Vec3 { x, y, z }: Vec3<R>, n: R) -> Self {
+        Self::new(
+            "length",
+            "n = √(x² + y² + z²)",
+            format!("√({x}² + {y}² + {z}²) = {n}"),
+        )
+    }
+}
+
+/// From [-1, 1] to the chart's [0, 1].
+pub(super) fn to_unit<R: Real>(c: R) -> R {
+    (c + R::one()) * R::half()
+}
+
+/// From the chart's [0, 1] to [-1, 1]: undoes [`to_unit`].
+pub(super) fn to_signed<R: Real>(c: R) -> R {
+    R::two() * c - R::one()
 }
 
 /// What a mapping is called, covers and claims.

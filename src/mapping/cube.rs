@@ -1,5 +1,6 @@
 //! Cube map: six pictures taken with a square field of view of 90 degrees, the gnomonic plane as it is.
 
+use super::chart::to_unit;
 use super::cube_face::{self, from_gnomonic, gnomonic, largest_component, signed};
 use super::{ChartPoint, Convention, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
@@ -25,8 +26,7 @@ impl Mapping for Cube {
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
         let (face, a, b) = gnomonic(dir, largest_component)?;
-        let place = |c: R| (c + R::one()) * R::half();
-        Some(ChartPoint::new(face, place(a), place(b)).clamped())
+        Some(ChartPoint::new(face, to_unit(a), to_unit(b)).clamped())
     }
 
     fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
@@ -38,32 +38,20 @@ impl Mapping for Cube {
         let Some(point) = Self::forward(dir) else {
             return Vec::new();
         };
-        let mut steps = cube_face::steps(dir, largest_component, "z before y before x on ties");
-        if let Some((_, a, b)) = gnomonic(dir, largest_component) {
-            steps.push(Step::new(
-                "u",
-                "u = (a + 1)/2",
-                format!("({a} + 1)/2 = {}", point.u),
-            ));
-            steps.push(Step::new(
-                "v",
-                "v = (b + 1)/2",
-                format!("({b} + 1)/2 = {}", point.v),
-            ));
-        }
-        steps
+        cube_face::steps(dir, |a, b| {
+            [
+                Step::new("u", "u = (a + 1)/2", format!("({a} + 1)/2 = {}", point.u)),
+                Step::new("v", "v = (b + 1)/2", format!("({b} + 1)/2 = {}", point.v)),
+            ]
+        })
     }
 }
 
 fn lower_left<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
     let (face, a, b) = gnomonic(dir, largest_component)?;
-    let place = |c: R| (c + R::one()) * R::half();
-    Some(ChartPoint::new(face, place(a), place(-b)).clamped())
+    Some(ChartPoint::new(face, to_unit(a), to_unit(-b)).clamped())
 }
 
 fn lower_left_inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-    Cube::inverse(ChartPoint {
-        v: R::one() - point.v,
-        ..point
-    })
+    Cube::inverse(point.flipped())
 }

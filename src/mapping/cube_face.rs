@@ -6,6 +6,7 @@
 //! Faces are chosen by comparing the raw components: comparisons are exact in every language and on every adapter, while
 //! rounded dot products leave holes.
 
+use super::chart::to_signed;
 use super::{ChartPoint, Layout, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
@@ -143,26 +144,29 @@ pub fn from_gnomonic<R: Real>(face: u32, a: R, b: R) -> Vec3<R> {
 
 /// A chart point as (a, b) in [-1, 1]^2 on its face without any warp, or `None` off the six faces.
 pub fn signed<R: Real>(point: ChartPoint<R>) -> Option<(R, R)> {
-    let signed = |c: R| R::two() * c - R::one();
-    point.is_on(6).then(|| (signed(point.u), signed(point.v)))
+    point
+        .is_on(6)
+        .then(|| (to_signed(point.u), to_signed(point.v)))
 }
 
-/// The steps that every member of the family begins with: the face, its frame and the gnomonic plane.
+/// The steps where the face of the largest component counts: the face, its frame, the gnomonic plane, and what `place`
+/// makes of (a, b) there.
 pub fn steps<R: Real + std::fmt::Display>(
     dir: Vec3<R>,
-    choose: fn(Vec3<R>) -> u32,
-    rule: &'static str,
+    place: impl FnOnce(R, R) -> [Step; 2],
 ) -> Vec<Step> {
-    let (Some(d), Some((face, a, b))) = (dir.scaled_direction(), gnomonic(dir, choose)) else {
+    let (Some(d), Some((face, a, b))) = (dir.scaled_direction(), gnomonic(dir, largest_component))
+    else {
         return Vec::new();
     };
     let (sc, tc, ma) = to_frame(face, d);
     let name = FACES[face as usize];
+    let [u, v] = place(a, b);
     vec![
         Step::new(
             "face",
             "the largest of |x|, |y|, |z|",
-            format!("{name} ({rule})"),
+            format!("{name} (z before y before x on ties)"),
         ),
         Step::new(
             "frame",
@@ -171,6 +175,8 @@ pub fn steps<R: Real + std::fmt::Display>(
         ),
         Step::new("a", "a = sc/ma", format!("{sc}/{ma} = {a}")),
         Step::new("b", "b = tc/ma", format!("{tc}/{ma} = {b}")),
+        u,
+        v,
     ]
 }
 

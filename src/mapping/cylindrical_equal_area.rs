@@ -1,8 +1,8 @@
 //! Cylindrical equal-area (Lambert): longitude to the right, height downwards. 4 pi sr per unit of chart area.
 
-use super::{ChartPoint, Claims, Mapping, MappingInfo, Step, WeakSpot};
+use super::{ChartPoint, Claims, Mapping, MappingInfo, Step, WeakSpot, latlong};
 use crate::math::{Real, Vec3};
-use std::f64::consts::{FRAC_1_PI, PI};
+use std::f64::consts::PI;
 
 /// See the [module](self).
 pub struct CylindricalEqualArea;
@@ -30,7 +30,6 @@ impl Mapping for CylindricalEqualArea {
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
         let d = dir.scaled_direction()?;
-        let u = R::half() + d.x.atan2(d.z) * R::from_f64(0.5 * FRAC_1_PI);
         let n = d.length();
         // n - |y| cancels near a pole; it equals (x^2 + z^2)/(n + |y|).
         let across = d.x.hypot(d.z);
@@ -40,14 +39,14 @@ impl Mapping for CylindricalEqualArea {
         } else {
             R::one() - from_pole
         };
-        Some(ChartPoint::new(0, u, v).clamped())
+        Some(ChartPoint::new(0, latlong::column(d), v).clamped())
     }
 
     fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
         if !point.is_on(1) {
             return None;
         }
-        let (sin, cos) = (point.u - R::half()).sin_cos_turns();
+        let (sin, cos) = latlong::longitude(point.u);
         // 1 - y^2 = 4 v (1 - v), which cancels at neither pole.
         let across = R::two() * (point.v * (R::one() - point.v)).sqrt();
         Some(Vec3::new(
@@ -61,25 +60,13 @@ impl Mapping for CylindricalEqualArea {
         let (Some(d), Some(point)) = (dir.scaled_direction(), Self::forward(dir)) else {
             return Vec::new();
         };
-        let Vec3 { x, y, z } = d;
-        let longitude = x.atan2(z);
+        let y = d.y;
+        let [longitude, u] = latlong::column_steps(d);
         let n = d.length();
         vec![
-            Step::new(
-                "longitude",
-                "λ = atan2(x, z)",
-                format!("atan2({x}, {z}) = {longitude} rad"),
-            ),
-            Step::new(
-                "length",
-                "n = √(x² + y² + z²)",
-                format!("√({x}² + {y}² + {z}²) = {n}"),
-            ),
-            Step::new(
-                "u",
-                "u = 1/2 + λ/(2π)",
-                format!("1/2 + {longitude}/(2π) = {}", point.u),
-            ),
+            longitude,
+            Step::length(d, n),
+            u,
             Step::new(
                 "v",
                 "v = (1 − y/n)/2",

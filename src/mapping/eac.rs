@@ -40,19 +40,19 @@ impl Mapping for Eac {
         let Some(point) = Self::forward(dir) else {
             return Vec::new();
         };
-        let mut steps = cube_face::steps(dir, largest_component, "z before y before x on ties");
-        if let Some((_, a, b)) = gnomonic(dir, largest_component) {
-            steps.push(Step::new(
-                "u",
-                "u = 1/2 + (2/π) atan a",
-                format!("1/2 + (2/π) atan {a} = {}", point.u),
-            ));
-            steps.push(Step::new(
-                "v",
-                "v = 1/2 + (2/π) atan b",
-                format!("1/2 + (2/π) atan {b} = {}", point.v),
-            ));
-        }
-        steps
+        cube_face::steps(dir, |a, b| {
+            [
+                Step::new(
+                    "u",
+                    "u = 1/2 + (2/π) atan a",
+                    format!("1/2 + (2/π) atan {a} = {}", point.u),
+                ),
+                Step::new(
+                    "v",
+                    "v = 1/2 + (2/π) atan b",
+                    format!("1/2 + (2/π) atan {b} = {}", point.v),
+                ),
+            ]
+        })
     }
 }

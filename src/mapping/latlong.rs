@@ -47,10 +47,9 @@ impl Mapping for Latlong {
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
         let d = dir.scaled_direction()?;
-        let u = R::half() + d.x.atan2(d.z) * R::from_f64(0.5 * FRAC_1_PI);
         // The colatitude from both of its legs: acos(y/n) would lose half the digits at the poles.
         let v = d.x.hypot(d.z).atan2(d.y) * R::from_f64(FRAC_1_PI);
-        Some(ChartPoint::new(0, u, v).clamped())
+        Some(ChartPoint::new(0, column(d), v).clamped())
     }
 
     fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
@@ -65,15 +64,11 @@ impl Mapping for Latlong {
             return Vec::new();
         };
         let Vec3 { x, y, z } = d;
-        let longitude = x.atan2(z);
+        let [longitude, u] = column_steps(d);
         let radius = x.hypot(z);
         let colatitude = radius.atan2(y);
         vec![
-            Step::new(
-                "longitude",
-                "λ = atan2(x, z)",
-                format!("atan2({x}, {z}) = {longitude} rad"),
-            ),
+            longitude,
             Step::new(
                 "radius",
                 "ρ = √(x² + z²)",
@@ -84,14 +79,33 @@ impl Mapping for Latlong {
                 "θ = atan2(ρ, y)",
                 format!("atan2({radius}, {y}) = {colatitude} rad"),
             ),
-            Step::new(
-                "u",
-                "u = 1/2 + λ/(2π)",
-                format!("1/2 + {longitude}/(2π) = {}", p.u),
-            ),
+            u,
             Step::new("v", "v = θ/π", format!("{colatitude}/π = {}", p.v)),
         ]
     }
+}
+
+/// The column of a scaled direction: its longitude from +z towards +x, in turns from the left edge.
+pub(super) fn column<R: Real>(d: Vec3<R>) -> R {
+    R::half() + d.x.atan2(d.z) * R::from_f64(0.5 * FRAC_1_PI)
+}
+
+/// The two steps of [`column`]: longitude and u.
+pub(super) fn column_steps<R: Real + std::fmt::Display>(d: Vec3<R>) -> [Step; 2] {
+    let Vec3 { x, z, .. } = d;
+    let longitude = x.atan2(z);
+    [
+        Step::new(
+            "longitude",
+            "λ = atan2(x, z)",
+            format!("atan2({x}, {z}) = {longitude} rad"),
+        ),
+        Step::new(
+            "u",
+            "u = 1/2 + λ/(2π)",
+            format!("1/2 + {longitude}/(2π) = {}", column(d).clamp_unit()),
+        ),
+    ]
 }
 
 /// Sine and cosine of the longitude of a column. With [`colatitude`] and [`direction`] it makes the inverse: whoever walks

@@ -66,11 +66,7 @@ impl Mapping for Matcap {
             "z ≤ 0: the texel's own direction"
         };
         vec![
-            Step::new(
-                "length",
-                "n = √(x² + y² + z²)",
-                format!("√({x}² + {y}² + {z}²) = {n}"),
-            ),
+            Step::length(d, n),
             Step::new(
                 "u",
                 "u = (x/n + 1)/2",
@@ -95,8 +91,5 @@ fn scali<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
 }
 
 fn scali_inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-    Matcap::inverse(ChartPoint {
-        v: R::one() - point.v,
-        ..point
-    })
+    Matcap::inverse(point.flipped())
 }

@@ -2,6 +2,7 @@
 //!
 //! The centre of the square is +y, the four corners are -y, the edges' middles +-x and +-z.
 
+use super::chart::{to_signed, to_unit};
 use super::{ChartPoint, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
@@ -23,16 +24,14 @@ impl Mapping for Octahedral {
         let sum = d.x.abs() + d.y.abs() + d.z.abs();
         let (x, z) = (d.x / sum, d.z / sum);
         let (x, z) = if d.y < R::zero() { fold(x, z) } else { (x, z) };
-        let place = |c: R| (c + R::one()) * R::half();
-        Some(ChartPoint::new(0, place(x), place(z)).clamped())
+        Some(ChartPoint::new(0, to_unit(x), to_unit(z)).clamped())
     }
 
     fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
         if !point.is_on(1) {
             return None;
         }
-        let signed = |c: R| R::two() * c - R::one();
-        let (x, z) = (signed(point.u), signed(point.v));
+        let (x, z) = (to_signed(point.u), to_signed(point.v));
         let y = R::one() - x.abs() - z.abs();
         let (x, z) = if y < R::zero() { fold(x, z) } else { (x, z) };
         Some(Vec3::new(x, y, z).normalized())

@@ -2,6 +2,7 @@
 //!
 //! Each octant's triangle is mapped with equal area: 4 pi sr per unit of chart area everywhere.
 
+use super::chart::{to_signed, to_unit};
 use super::octahedral::fold;
 use super::{ChartPoint, Claims, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
@@ -34,16 +35,14 @@ impl Mapping for OctahedralEqualArea {
         } else {
             (x, z)
         };
-        let place = |c: R| (c + R::one()) * R::half();
-        Some(ChartPoint::new(0, place(x), place(z)).clamped())
+        Some(ChartPoint::new(0, to_unit(x), to_unit(z)).clamped())
     }
 
     fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
         if !point.is_on(1) {
             return None;
         }
-        let signed = |c: R| R::two() * c - R::one();
-        let (mut x, mut z) = (signed(point.u), signed(point.v));
+        let (mut x, mut z) = (to_signed(point.u), to_signed(point.v));
         let height = R::one() - x.abs() - z.abs();
         let below = height < R::zero();
         if below {
@@ -75,11 +74,7 @@ impl Mapping for OctahedralEqualArea {
         let n = d.length();
         let (radius, share) = polar(d);
         let mut steps = vec![
-            Step::new(
-                "length",
-                "n = √(x² + y² + z²)",
-                format!("√({x}² + {y}² + {z}²) = {n}"),
-            ),
+            Step::length(d, n),
             Step::new(
                 "radius",
                 "r = √((x² + z²)/(n(n + |y|)))",

@@ -69,11 +69,7 @@ impl Mapping for Sphere {
         let half = n - z;
         let m = R::two() * (x * x + y * y + half * half).sqrt();
         vec![
-            Step::new(
-                "length",
-                "n = √(x² + y² + z²)",
-                format!("√({x}² + {y}² + {z}²) = {n}"),
-            ),
+            Step::length(d, n),
             Step::new(
                 "m",
                 "m = 2√(x² + y² + (n − z)²)",
@@ -112,8 +108,5 @@ fn hoff<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
 }
 
 fn hoff_inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-    Sphere::inverse(ChartPoint {
-        v: R::one() - point.v,
-        ..point
-    })
+    Sphere::inverse(point.flipped())
 }

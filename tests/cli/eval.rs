@@ -53,7 +53,7 @@ fn inverse_undoes_eval_and_keeps_the_columns() {
             }
         }
         println!("{map}: {worst:.1e} rad");
-        // A plumbing test: rims and poles are resolved to half the digits only, which tests/laws.rs looks at closely.
+        // A plumbing test: rims and poles are resolved to half the digits only, which tests/laws looks at closely.
         assert!(worst < 1e-7, "{map}: {worst:.1e} rad");
     }
 }
