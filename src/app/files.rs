@@ -5,10 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::dialogs::{Dialog, PictureDialog, SaveDialog};
 use super::state::AppState;
-use crate::imaging::{Environment, png_out};
-
-/// Largest scene file that is read. A scene has a few kilobytes.
-const MOST_SCENE_BYTES: u64 = 1 << 20;
+use crate::imaging::png_out::{self, MOST_SCENE_BYTES};
+use crate::imaging::{Environment, open_regular};
 
 /// What a file turned out to be.
 #[derive(Debug)]
@@ -31,12 +29,8 @@ pub fn open(path: &Path) -> Result<Opened, String> {
     };
     let failed =
         |error: std::io::Error| format!("the file cannot be read ({error}): {}", path.display());
-    // A pipe would be waited for; a folder cannot be read.
-    if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(format!("this is not a file: {}", path.display()));
-    }
     let mut start = Vec::new();
-    let file = std::fs::File::open(path).map_err(failed)?;
+    let file = open_regular(path).map_err(failed)?;
     file.take(SNIFFED_BYTES)
         .read_to_end(&mut start)
         .map_err(failed)?;
@@ -84,12 +78,12 @@ fn environment(path: &Path) -> Opened {
 fn read_text(path: &Path) -> Result<String, String> {
     let describe =
         |error: std::io::Error| format!("the scene cannot be read ({error}): {}", path.display());
-    let file = std::fs::File::open(path).map_err(describe)?;
+    let file = open_regular(path).map_err(describe)?;
     let mut text = String::new();
-    file.take(MOST_SCENE_BYTES + 1)
+    file.take(MOST_SCENE_BYTES as u64 + 1)
         .read_to_string(&mut text)
         .map_err(describe)?;
-    if text.len() as u64 > MOST_SCENE_BYTES {
+    if text.len() > MOST_SCENE_BYTES {
         return Err(format!(
             "a scene has at most {MOST_SCENE_BYTES} bytes, this file has more: {}",
             path.display()

@@ -34,8 +34,8 @@ impl Mapping for Sphere {
         }],
         conventions: &[Convention {
             id: "hoff",
-            about: "right-handed eye space, r_z towards the viewer, t upwards: s = rx/m + 1/2, t = ry/m + 1/2",
-            columns: ["chart", "s", "t"],
+            about: "right-handed eye space, r_z towards the viewer, v (Hoff's t) upwards: u = s = rx/m + 1/2, v = t = ry/m + 1/2",
+            columns: ["chart", "u", "v"],
             forward: (hoff, hoff),
             inverse: Some((hoff_inverse, hoff_inverse)),
         }],
