@@ -65,7 +65,7 @@ fn conventions_name_their_columns_and_give_their_numbers() {
         ("ccm", "appendix-b", "x,y,z,case,u,v"),
         ("ccm", "printed-eq6", "x,y,z,tex_index,s,t"),
         ("latlong", "grimm", "x,y,z,chart,u,v"),
-        ("sphere", "hoff", "x,y,z,chart,s,t"),
+        ("sphere", "hoff", "x,y,z,chart,u,v"),
         ("matcap", "scali", "x,y,z,chart,u,v"),
         ("cube", "lower-left", "x,y,z,chart,u,v"),
     ];
