@@ -64,6 +64,8 @@ pub enum Action {
     SetPanelView(PanelState),
     /// What the inspector shows.
     SetInspector(InspectorState),
+    /// Show or hide the controls.
+    SetControlsOpen(bool),
     /// Show one pane alone, or all again.
     SetMaximised(Option<Pane>),
     /// A whole other scene.
@@ -155,6 +157,7 @@ pub fn apply(state: &mut AppState, action: Action) {
             }
         }
         Action::SetInspector(inspector) => state.inspector = inspector,
+        Action::SetControlsOpen(open) => state.controls_open = open,
         Action::SetMaximised(pane) => state.show_alone(pane),
         Action::Load(loaded) => *state = loaded.sanitized(),
     }

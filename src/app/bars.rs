@@ -42,6 +42,10 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
             }
         });
         ui.menu_button("View", |ui| {
+            let mut controls = model.state.controls_open;
+            if ui.checkbox(&mut controls, "Controls").changed() {
+                model.push(Action::SetControlsOpen(controls));
+            }
             let mut inspector = model.state.inspector;
             if ui.checkbox(&mut inspector.open, "Inspector").changed() {
                 model.push(Action::SetInspector(inspector));

@@ -410,10 +410,12 @@ fn window_ui(
 ) {
     Panel::top("menu").show(ui, |ui| bars::menu_ui(ui, model, dialog));
     Panel::bottom("status").show(ui, |ui| bars::status_ui(ui, model));
-    Panel::left("controls")
-        .default_size(196.0)
-        .size_range(160.0..=320.0)
-        .show(ui, |ui| controls::controls_ui(ui, model));
+    if model.state.controls_open {
+        Panel::left("controls")
+            .default_size(196.0)
+            .size_range(160.0..=320.0)
+            .show(ui, |ui| controls::controls_ui(ui, model));
+    }
     if model.state.inspector.open {
         Panel::right("inspector")
             .default_size(372.0)

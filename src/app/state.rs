@@ -56,6 +56,8 @@ pub struct AppState {
     pub arrangement: Option<Arrangement>,
     /// The pane that is shown alone.
     pub maximised: Option<Pane>,
+    /// The controls at the left are shown.
+    pub controls_open: bool,
     /// What the inspector shows.
     pub inspector: InspectorState,
 }
@@ -250,6 +252,7 @@ impl Default for AppState {
             panels,
             arrangement: None,
             maximised: None,
+            controls_open: true,
             inspector: InspectorState::default(),
         }
     }
