@@ -153,10 +153,6 @@ fn what_is_too_large_or_wrong_is_refused() {
         ..panel(MappingId::Cube)
     };
     for bad in [
-        Frame {
-            texel_budget: u32::MAX,
-            ..frame(Some(viewport(MappingId::Latlong)), &[])
-        },
         frame(Some(huge_view), &[]),
         frame(None, &[huge_panel]),
     ] {

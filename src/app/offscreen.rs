@@ -25,6 +25,8 @@ pub struct Offscreen {
     size: [u32; 2],
     /// Pixels per point.
     scale: f32,
+    /// Why the last frame is not whole.
+    fault: Option<String>,
 }
 
 impl Offscreen {
@@ -70,6 +72,7 @@ impl Offscreen {
             what,
             size,
             scale: points_scale(what, size),
+            fault: None,
         })
     }
 
@@ -98,7 +101,10 @@ impl Offscreen {
                 What::Window => explorer.ui(ui),
                 what => explorer.view_alone_ui(ui, what),
             });
-        self.paint(output);
+        let gpu = self.gpu.clone();
+        let painted = gpu.checked(|_| self.paint(output));
+        let fault = gpu.take_error();
+        self.fault = painted.err().map(|error| error.to_string()).or(fault);
     }
 
     /// egui's context, for commands.
@@ -111,6 +117,9 @@ impl Offscreen {
     /// # Errors
     /// When the device fails.
     pub fn read(&self) -> Result<Vec<u8>, String> {
+        if let Some(fault) = &self.fault {
+            return Err(format!("the picture could not be drawn: {fault}"));
+        }
         let pixels = read_view(&self.gpu, &self.texture).map_err(|error| error.to_string())?;
         let mut rgba = pixels.rgba;
         for pixel in rgba.chunks_exact_mut(4) {

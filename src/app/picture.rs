@@ -89,7 +89,14 @@ pub fn make(
     request: &PictureRequest,
     progress: &Progress,
 ) -> Result<Picture, String> {
-    let picture = draw(gpu, state, surroundings, request, progress)?;
+    let own = own_device(gpu)?;
+    let picture = draw(
+        own.as_ref().unwrap_or(gpu),
+        state,
+        surroundings,
+        request,
+        progress,
+    )?;
     if let Destination::File { path, force } = &request.to {
         let [width, height] = picture.size;
         let scene = state.to_json().map_err(|error| error.to_string())?;
@@ -99,6 +106,17 @@ pub fn make(
         atomic::write_atomically(path, *force, &bytes).map_err(|error| error.to_string())?;
     }
     Ok(picture)
+}
+
+/// On GL a device belongs to one thread at a time: a picture on the window's device would make the window wait. `None` where
+/// both can work side by side.
+fn own_device(gpu: &Gpu) -> Result<Option<Gpu>, String> {
+    if gpu.adapter_info.backend != wgpu::Backend::Gl {
+        return Ok(None);
+    }
+    Gpu::open(&[wgpu::Backends::GL])
+        .map(Some)
+        .map_err(|error| error.to_string())
 }
 
 /// Draws a picture on a device of its own, loading the state's environment first: what `sixfold render` does.

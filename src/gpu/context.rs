@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Largest texture side that is asked for: a 16K panorama. Adapters that offer less give less.
 pub const WANTED_TEXTURE_SIDE: u32 = 16_384;
@@ -171,7 +171,7 @@ impl Gpu {
         // Scopes are a stack, so the last comes off first; off the web their futures are ready at once.
         let errors = [validity, internal, memory].map(|scope| pollster::block_on(scope.pop()));
         match errors.into_iter().flatten().next() {
-            Some(error) => Err(GpuError::Refused(error.to_string())),
+            Some(error) => Err(GpuError::Refused(one_line(&error.to_string()))),
             None => self.alive().map(|()| result),
         }
     }
@@ -186,16 +186,7 @@ impl Gpu {
                 let _ = sender.send(mapped);
             });
         })?;
-        let wait = wgpu::PollType::Wait {
-            submission_index: None,
-            timeout: Some(PATIENCE),
-        };
-        let polled = self.device.poll(wait);
-        self.alive()?;
-        polled.map_err(|error| match error {
-            wgpu::PollError::Timeout => GpuError::Timeout,
-            other => GpuError::Refused(other.to_string()),
-        })?;
+        self.wait()?;
         // Another thread that waits on this device may have taken the callback up and still be about to call it.
         receiver
             .recv_timeout(PATIENCE)
@@ -210,6 +201,27 @@ impl Gpu {
         Ok(data)
     }
 
+    /// Waits for all work that was submitted, at most [`PATIENCE`].
+    ///
+    /// In slices, because GL waits at most 4 s at a time: its timeout is counted in nanoseconds of 32 bits.
+    pub fn wait(&self) -> Result<(), GpuError> {
+        const SLICE: Duration = Duration::from_secs(1);
+        let end = Instant::now() + PATIENCE;
+        loop {
+            let polled = self.device.poll(wgpu::PollType::Wait {
+                submission_index: None,
+                timeout: Some(SLICE),
+            });
+            self.alive()?;
+            match polled {
+                Ok(_) => return Ok(()),
+                Err(wgpu::PollError::Timeout) if Instant::now() < end => {}
+                Err(wgpu::PollError::Timeout) => return Err(GpuError::Timeout),
+                Err(other) => return Err(GpuError::Refused(one_line(&other.to_string()))),
+            }
+        }
+    }
+
     /// An error once the device is lost.
     fn alive(&self) -> Result<(), GpuError> {
         if self.is_lost() {
@@ -217,6 +229,11 @@ impl Gpu {
         }
         Ok(())
     }
+}
+
+/// A device's answer as one line: it explains itself over several.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Every adapter of these interfaces, GPUs before software adapters. Vulkan and GL each list the same card.

@@ -15,12 +15,17 @@ pub(super) fn wgsl_constants() -> String {
     format!("const MAP_LEVELS: u32 = {MAP_LEVELS}u;\nconst GUTTER: u32 = {GUTTER}u;\n")
 }
 
+/// Widest chart in texels: with its gutters it fills a texture of 8192, which every adapter has.
+pub const WIDEST: u32 = 8192 - 2 * GUTTER;
+
 /// Width and height of a mapping's charts in texels, without the gutter, such that all charts together have about `budget`
-/// texels and a texel is as high as it is wide. Multiples of [`GUTTER`], so that every level is halved exactly.
+/// texels and a texel is as high as it is wide. Multiples of [`GUTTER`], so that every level is halved exactly. A chart is never
+/// wider than every adapter's textures, [`WIDEST`]; one that would be is made smaller as a whole.
 #[must_use]
 pub fn map_size(id: MappingId, budget: u32) -> [u32; 2] {
     let info = id.info();
     let rows = (f64::from(budget) / (f64::from(info.chart_count()) * info.aspect)).sqrt();
+    let rows = rows.min(f64::from(WIDEST) / info.aspect.max(1.0));
     let unit = f64::from(GUTTER);
     // At most 2^16 * sqrt(pi): far within u32.
     [rows * info.aspect, rows].map(|n| ((n / unit).round().max(1.0) * unit) as u32)
@@ -191,6 +196,10 @@ mod tests {
                 assert!(f64::from(w) / f64::from(h) / info.aspect - 1.0 < 1.1 * slack);
             }
             assert_eq!(map_size(id, 0)[1], GUTTER, "never empty");
+            // However many texels are asked for, the widest side fits and keeps its shape.
+            let [w, h] = map_size(id, u32::MAX);
+            assert!(w.max(h) <= WIDEST && w.max(h) + GUTTER > WIDEST, "{id}: {w} x {h}");
+            assert!((f64::from(w) / f64::from(h) / info.aspect - 1.0).abs() < 0.01);
             assert!(map_size(id, u32::MAX)[0] < 1 << 18);
         }
         assert_eq!(map_size(MappingId::Ccm, 6 * 256 * 256), [256, 256]);
