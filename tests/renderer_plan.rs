@@ -152,10 +152,7 @@ fn what_is_too_large_or_wrong_is_refused() {
         size_px: [4, 1 << 20],
         ..panel(MappingId::Cube)
     };
-    for bad in [
-        frame(Some(huge_view), &[]),
-        frame(None, &[huge_panel]),
-    ] {
+    for bad in [frame(Some(huge_view), &[]), frame(None, &[huge_panel])] {
         let error = renderer.draw(&bad).unwrap_err();
         assert!(matches!(error, RenderError::TooLarge { .. }), "{error}");
         assert!(!error.to_string().contains('\n'));

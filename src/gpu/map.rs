@@ -198,7 +198,10 @@ mod tests {
             assert_eq!(map_size(id, 0)[1], GUTTER, "never empty");
             // However many texels are asked for, the widest side fits and keeps its shape.
             let [w, h] = map_size(id, u32::MAX);
-            assert!(w.max(h) <= WIDEST && w.max(h) + GUTTER > WIDEST, "{id}: {w} x {h}");
+            assert!(
+                w.max(h) <= WIDEST && w.max(h) + GUTTER > WIDEST,
+                "{id}: {w} x {h}"
+            );
             assert!((f64::from(w) / f64::from(h) / info.aspect - 1.0).abs() < 0.01);
             assert!(map_size(id, u32::MAX)[0] < 1 << 18);
         }
