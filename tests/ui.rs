@@ -477,3 +477,55 @@ fn hostile_scenes_open_mended_or_are_refused() {
         assert!(why.contains("rename") && !why.contains('\n'), "{why}");
     }
 }
+
+#[test]
+fn the_divider_is_dragged_and_the_camera_turns_zooms_and_comes_back() {
+    let mut ui = open(small());
+    run(&mut ui, Action::SetCompare(Some(MappingId::Eac)));
+    let grip = ui
+        .get_by_label("Divider between the mappings")
+        .rect()
+        .center();
+    let view = ui.get_by_label("The viewport").rect();
+    let target = egui::pos2(view.left() + 0.25 * view.width(), grip.y);
+    ui.drag_at(grip);
+    ui.step();
+    ui.hover_at(target);
+    ui.step();
+    ui.drop_at(target);
+    settle(&mut ui);
+    let state = ui.state().explorer().state().clone();
+    assert!(
+        (state.divider - 0.25).abs() < 0.02,
+        "the divider stands at {}",
+        state.divider
+    );
+    assert_eq!(
+        state.camera,
+        AppState::default().camera,
+        "the divider's drag turned the camera"
+    );
+    // A drag beside it turns the camera, and leaves the divider.
+    let start = egui::pos2(view.left() + 0.75 * view.width(), grip.y);
+    ui.drag_at(start);
+    ui.step();
+    ui.hover_at(start + egui::vec2(40.0, 10.0));
+    ui.step();
+    ui.drop_at(start + egui::vec2(40.0, 10.0));
+    settle(&mut ui);
+    let turned = ui.state().explorer().state().clone();
+    assert_ne!(turned.camera.yaw_rad, state.camera.yaw_rad);
+    assert_eq!(turned.divider, state.divider);
+    for key in [egui::Key::A, egui::Key::Plus, egui::Key::W] {
+        ui.key_press(key);
+    }
+    settle(&mut ui);
+    let moved = ui.state().explorer().state().camera;
+    assert!(moved.distance < turned.camera.distance && moved != turned.camera);
+    ui.key_press(egui::Key::R);
+    settle(&mut ui);
+    assert_eq!(
+        ui.state().explorer().state().camera,
+        AppState::default().camera
+    );
+}
