@@ -1,7 +1,7 @@
 //! Frames a second while the camera orbits: `cargo run --release --example measure_orbit [WIDTHxHEIGHT]`.
 //!
 //! Each frame is a whole window: layout, the viewport drawn anew by the adapter, the window painted; then the device is waited
-//! for. Maps and panels are not drawn again, as in the window.
+//! for. Maps and panels are not drawn again, as in the window. Last it tells how long single frames keep the window's thread.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -66,6 +66,29 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 times[times.len() - 1] * 1e3
             );
         }
+    }
+    // What the window's thread itself spends on a frame: usual, and the first after a switch that needs another shader.
+    let ctx = screen.ctx().clone();
+    let mut overlays = screen.explorer.state().overlays;
+    for what in [
+        "a usual frame",
+        "an overlay's first",
+        "a usual frame",
+        "an overlay's last",
+    ] {
+        if what.starts_with("an") {
+            overlays.great_circles = !overlays.great_circles;
+            screen
+                .explorer
+                .run(&ctx, Command::Do(Action::SetOverlays(overlays)));
+        }
+        let start = Instant::now();
+        screen.frame();
+        eprintln!(
+            "{what:24} keeps the thread for {:.1} ms",
+            start.elapsed().as_secs_f64() * 1e3
+        );
+        wait()?;
     }
     Ok(())
 }
