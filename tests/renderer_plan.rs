@@ -222,3 +222,44 @@ fn without_an_environment_nothing_is_drawn() {
     assert!(report.ran.is_empty() && !report.is_pending());
     assert_eq!((report.textures, report.pipelines), (0, 0));
 }
+
+#[test]
+fn shaders_compiled_aside_give_the_same_picture_and_keep_nobody_waiting() {
+    let mut here = renderer([64, 32], direction_light);
+    let seen = frame(Some(viewport(MappingId::Ccm)), &[panel(MappingId::Cube)]);
+    here.draw(&seen).unwrap();
+    let picture = |renderer: &Renderer| {
+        let view = renderer
+            .read_texture(renderer.viewport_texture().unwrap())
+            .unwrap();
+        let panel = renderer.panel_texture(MappingId::Cube).unwrap();
+        (view, renderer.read_texture(panel).unwrap())
+    };
+    let mut aside = renderer([64, 32], direction_light);
+    let patient = Frame {
+        compile_aside: true,
+        ..seen.clone()
+    };
+    let first = aside.draw(&patient).unwrap();
+    assert!(first.is_pending(), "every shader was there at once");
+    let mut settle = |frame: &Frame| {
+        for _ in 0..2000 {
+            if !aside.draw(frame).unwrap().is_pending() {
+                return picture(&aside);
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        panic!("still pending: {:?}", aside.report());
+    };
+    assert!(settle(&patient) == picture(&here));
+    // Another shader: until it is there the old picture stays, then both are alike again.
+    let with = |frame: &Frame| {
+        let mut frame = frame.clone();
+        frame.viewport.as_mut().unwrap().overlays.grid = true;
+        frame
+    };
+    let before = picture(&here);
+    here.draw(&with(&seen)).unwrap();
+    assert!(picture(&here).0 != before.0);
+    assert!(settle(&with(&patient)) == picture(&here));
+}

@@ -55,8 +55,10 @@ pub struct Explorer {
     plan: String,
     /// Draw every map at once instead of one a frame: for pictures.
     complete: bool,
-    /// More maps are waiting to be drawn.
+    /// Something that is seen has not been drawn yet.
     pending: bool,
+    /// It waits for a shader.
+    waits: bool,
     texel_color: TexelColor,
     probed: Option<[f32; 3]>,
     quit: bool,
@@ -86,6 +88,7 @@ impl Explorer {
             plan: String::new(),
             complete: false,
             pending: false,
+            waits: false,
             texel_color: TexelColor::default(),
             probed: None,
             quit: false,
@@ -193,8 +196,11 @@ impl Explorer {
         }
         self.draw_views(&laid_out);
         // What was just changed is seen in the next frame; a still window asks for none.
-        if (any && before != self.state) || self.pending || self.texel_color.is_waiting() {
+        let draws_on = self.pending && !self.waits;
+        if (any && before != self.state) || draws_on || self.texel_color.is_waiting() {
             ctx.request_repaint();
+        } else if self.waits {
+            ctx.request_repaint_after(std::time::Duration::from_millis(20));
         } else if self.is_busy() {
             ctx.request_repaint_after(std::time::Duration::from_millis(100));
         }
@@ -246,6 +252,7 @@ impl Explorer {
         match self.renderer.draw(&frame) {
             Ok(report) => {
                 self.pending = report.is_pending();
+                self.waits = self.pending && report.ran.is_empty();
                 self.plan = report.to_string();
             }
             Err(error) => {

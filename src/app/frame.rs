@@ -22,6 +22,7 @@ pub fn frame_of(state: &AppState, laid_out: &[(ViewKey, [u32; 2])], complete: bo
         viewport: None,
         panels: Vec::new(),
         complete,
+        compile_aside: !complete,
     };
     for &(key, size_px) in laid_out {
         match key {

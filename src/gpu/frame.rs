@@ -25,6 +25,8 @@ pub struct Frame {
     pub panels: Vec<PanelFrame>,
     /// Bake every map now, for exports and tests, instead of one map in each call.
     pub complete: bool,
+    /// Compile missing shaders on other threads and leave what needs them pending, instead of waiting for them (not on GL).
+    pub compile_aside: bool,
 }
 
 impl Default for Frame {
@@ -37,6 +39,7 @@ impl Default for Frame {
             viewport: None,
             panels: Vec::new(),
             complete: false,
+            compile_aside: false,
         }
     }
 }

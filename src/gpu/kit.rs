@@ -103,7 +103,7 @@ fn show_source(id: MappingId, pass: &str) -> String {
 }
 
 /// Layouts and samplers that all passes share.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Kit {
     pub gpu: Gpu,
     /// A block, a map, a sampler.

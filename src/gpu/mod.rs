@@ -16,6 +16,7 @@ pub mod shader;
 pub mod tone;
 pub mod uniforms;
 mod viewport;
+mod workshop;
 
 pub use compute::GpuEvaluator;
 pub use context::{Gpu, GpuError};

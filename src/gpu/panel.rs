@@ -3,6 +3,7 @@
 use super::frame::{Look, PanelFrame};
 use super::kit::{Kit, VIEW_FORMAT, begin_pass, panel_source};
 use super::uniforms;
+use crate::mapping::MappingId;
 
 /// Everything of one panel on the device.
 #[derive(Debug)]
@@ -12,7 +13,6 @@ pub(super) struct Panel {
     /// Changes with every new texture.
     pub id: u64,
     block: wgpu::Buffer,
-    pipeline: wgpu::RenderPipeline,
 }
 
 impl Panel {
@@ -23,13 +23,13 @@ impl Panel {
             texture,
             id,
             block: kit.block_buffer("panel", size_of::<uniforms::Panel>()),
-            pipeline: kit.screen_pipeline(
-                &kit.lookup,
-                &panel_source(frame.mapping),
-                "panel_fragment",
-                VIEW_FORMAT,
-            ),
         }
+    }
+
+    /// Compiles the pass that draws panels of `id`.
+    pub fn pipeline(kit: &Kit, id: MappingId) -> wgpu::RenderPipeline {
+        let source = panel_source(id);
+        kit.screen_pipeline(&kit.lookup, &source, "panel_fragment", VIEW_FORMAT)
     }
 
     /// Makes what the frame needs and the panel lacks; `id` becomes the new texture's, if there is one.
@@ -47,6 +47,7 @@ impl Panel {
         &self,
         kit: &Kit,
         encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::RenderPipeline,
         frame: &PanelFrame,
         look: Look,
         map: &wgpu::TextureView,
@@ -65,7 +66,7 @@ impl Panel {
             .queue
             .write_buffer(&self.block, 0, bytemuck::bytes_of(&block));
         let mut pass = begin_pass(encoder, "panel", &self.view);
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &kit.lookup_group(&self.block, map), &[]);
         pass.draw(0..3, 0..1);
     }

@@ -65,6 +65,22 @@ pub(super) struct Drawn {
     pub panels: BTreeMap<MappingId, PanelKey>,
 }
 
+/// Puts back what stood under `id` before.
+fn restore<T: Clone>(
+    now: &mut BTreeMap<MappingId, T>,
+    before: &BTreeMap<MappingId, T>,
+    id: MappingId,
+) {
+    match before.get(&id) {
+        Some(old) => {
+            now.insert(id, old.clone());
+        }
+        None => {
+            now.remove(&id);
+        }
+    }
+}
+
 /// What a frame makes necessary.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Plan {
@@ -123,6 +139,19 @@ impl Plan {
             if let Some(key) = will_be {
                 self.drawn.maps.insert(id, key);
             }
+        }
+    }
+
+    /// Takes nodes back whose shaders are still being compiled: they stay as they were `drawn` and are pending.
+    pub fn hold_back(&mut self, held: &[Node], drawn: &Drawn) {
+        self.run.retain(|node| !held.contains(node));
+        for node in held {
+            match node {
+                Node::Map(id) => restore(&mut self.drawn.maps, &drawn.maps, *id),
+                Node::Viewport => self.drawn.viewport.clone_from(&drawn.viewport),
+                Node::Panel(id) => restore(&mut self.drawn.panels, &drawn.panels, *id),
+            }
+            self.pending.push(*node);
         }
     }
 

@@ -13,6 +13,7 @@ use super::readback::{
 };
 use super::report::Report;
 use super::viewport::{Viewport, samples};
+use super::workshop::Workshop;
 use super::{Gpu, GpuError};
 use crate::mapping::MappingId;
 
@@ -70,9 +71,10 @@ pub struct Renderer {
     /// With a number that counts up with every environment.
     environment: Option<(u64, EnvironmentTexture)>,
     maps: BTreeMap<MappingId, Map>,
-    bakers: BTreeMap<MappingId, wgpu::RenderPipeline>,
+    bakers: Workshop<MappingId>,
     viewport: Option<Viewport>,
     panels: BTreeMap<MappingId, Panel>,
+    panel_passes: Workshop<MappingId>,
     drawn: Drawn,
     report: Report,
     /// Numbers for environments and views; never used twice.
@@ -87,9 +89,10 @@ impl Renderer {
             kit: Kit::new(gpu),
             environment: None,
             maps: BTreeMap::new(),
-            bakers: BTreeMap::new(),
+            bakers: Workshop::new(Map::pipeline),
             viewport: None,
             panels: BTreeMap::new(),
+            panel_passes: Workshop::new(Panel::pipeline),
             drawn: Drawn::default(),
             report: Report::default(),
             last_number: 0,
@@ -125,20 +128,25 @@ impl Renderer {
         if gpu.is_lost() {
             return Err(RenderError::DeviceLost("before drawing".into()));
         }
-        let frame = frame.normalized();
+        let mut frame = frame.normalized();
+        // A GL device belongs to one thread at a time: compiling aside would make this one wait all the same.
+        frame.compile_aside &= gpu.adapter_info.backend != wgpu::Backend::Gl;
         self.check_sizes(&frame)?;
-        let plan = Plan::new(
+        let mut plan = Plan::new(
             &self.drawn,
             &frame,
             samples(&self.kit, &frame),
             self.environment.as_ref().map(|(number, _)| *number),
         );
         self.drop_unseen(&frame);
-        if !plan.run.is_empty()
-            && let Err(error) = gpu.checked(|_| self.run(&plan, &frame))
-        {
-            self.forget();
-            return Err(error.into());
+        if !plan.run.is_empty() {
+            match gpu.checked(|_| self.run(&plan, &frame)) {
+                Ok(held) => plan.hold_back(&held, &self.drawn),
+                Err(error) => {
+                    self.forget();
+                    return Err(error.into());
+                }
+            }
         }
         self.drawn = plan.drawn;
         self.report.enter(plan.run, plan.skipped, plan.pending);
@@ -308,10 +316,10 @@ impl Renderer {
     fn drop_unseen(&mut self, frame: &Frame) {
         let shown = frame.mappings();
         self.maps.retain(|id, _| shown.contains(id));
-        self.bakers.retain(|id, _| shown.contains(id));
-        let panels = &frame.panels;
-        self.panels
-            .retain(|id, _| panels.iter().any(|p| p.mapping == *id));
+        self.bakers.retain(|id| shown.contains(id));
+        let is_seen = |id: &MappingId| frame.panels.iter().any(|p| p.mapping == *id);
+        self.panels.retain(|id, _| is_seen(id));
+        self.panel_passes.retain(is_seen);
         match (&mut self.viewport, &frame.viewport) {
             (Some(viewport), Some(seen)) => viewport.keep_only(seen),
             (viewport, _) => *viewport = None,
@@ -322,13 +330,15 @@ impl Renderer {
     fn forget(&mut self) {
         self.drawn = Drawn::default();
         self.maps.clear();
-        self.bakers.clear();
+        self.bakers.retain(|_| false);
         self.panels.clear();
+        self.panel_passes.retain(|_| false);
         self.viewport = None;
     }
 
-    /// Draws the plan's nodes and submits.
-    fn run(&mut self, plan: &Plan, frame: &Frame) {
+    /// Draws the plan's nodes and submits. Gives back those that must wait for a shader, and for a map that does.
+    fn run(&mut self, plan: &Plan, frame: &Frame) -> Vec<Node> {
+        let mut held = Vec::new();
         let mut encoder =
             self.kit
                 .gpu
@@ -337,33 +347,47 @@ impl Renderer {
                     label: Some("frame"),
                 });
         for node in &plan.run {
-            match *node {
-                Node::Map(id) => self.run_map(&mut encoder, plan, id),
-                Node::Viewport => {
-                    if let Some(viewport) = &frame.viewport {
-                        self.run_viewport(&mut encoder, frame, viewport);
-                    }
-                }
+            let has_map = |id: MappingId| !held.contains(&Node::Map(id));
+            let is_drawn = match *node {
+                Node::Map(id) => self.run_map(&mut encoder, plan, id, frame.compile_aside),
+                Node::Viewport => frame.viewport.as_ref().is_none_or(|viewport| {
+                    viewport.mappings().all(has_map)
+                        && self.run_viewport(&mut encoder, frame, viewport)
+                }),
                 Node::Panel(id) => {
-                    if let Some(panel) = frame.panels.iter().find(|p| p.mapping == id) {
-                        self.run_panel(&mut encoder, frame, panel);
-                    }
+                    let panel = frame.panels.iter().find(|p| p.mapping == id);
+                    panel.is_none_or(|panel| {
+                        has_map(id) && self.run_panel(&mut encoder, frame, panel)
+                    })
                 }
+            };
+            if !is_drawn {
+                held.push(*node);
             }
         }
-        self.kit.gpu.queue.submit([encoder.finish()]);
+        if held.len() < plan.run.len() {
+            self.kit.gpu.queue.submit([encoder.finish()]);
+        }
+        held
     }
 
-    fn run_map(&mut self, encoder: &mut wgpu::CommandEncoder, plan: &Plan, id: MappingId) {
+    /// False while its shader is compiled aside; so with the next two.
+    fn run_map(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        plan: &Plan,
+        id: MappingId,
+        aside: bool,
+    ) -> bool {
         let (Some((_, environment)), Some(key)) = (&self.environment, plan.drawn.maps.get(&id))
         else {
-            return;
+            return true;
         };
         let kit = &self.kit;
-        let pipeline = self
-            .bakers
-            .entry(id)
-            .or_insert_with(|| Map::pipeline(kit, id));
+        let is_ready = self.bakers.has(kit, id, aside);
+        let Some(pipeline) = self.bakers.get(id).filter(|_| is_ready) else {
+            return false;
+        };
         let map = self
             .maps
             .entry(id)
@@ -372,6 +396,7 @@ impl Renderer {
             *map = Map::new(kit, id, key.size);
         }
         map.bake(kit, encoder, pipeline, id, environment);
+        true
     }
 
     fn run_viewport(
@@ -379,27 +404,43 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         frame: &Frame,
         seen: &ViewportFrame,
-    ) {
+    ) -> bool {
         let number = self.next_number();
         let kit = &self.kit;
         let samples = samples(kit, frame);
         let viewport = self
             .viewport
             .get_or_insert_with(|| Viewport::new(kit, seen, samples, number));
+        if !viewport.is_ready(kit, seen, &self.maps, samples, frame.compile_aside) {
+            return false;
+        }
         viewport.prepare(kit, seen, samples, number);
         viewport.draw(kit, encoder, seen, frame.look(), &self.maps);
+        true
     }
 
-    fn run_panel(&mut self, encoder: &mut wgpu::CommandEncoder, frame: &Frame, seen: &PanelFrame) {
+    fn run_panel(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &Frame,
+        seen: &PanelFrame,
+    ) -> bool {
         let number = self.next_number();
         let Some(map) = self.maps.get(&seen.mapping) else {
-            return;
+            return true;
         };
         let kit = &self.kit;
+        let is_ready = self
+            .panel_passes
+            .has(kit, seen.mapping, frame.compile_aside);
+        let Some(pipeline) = self.panel_passes.get(seen.mapping).filter(|_| is_ready) else {
+            return false;
+        };
         let make = || Panel::new(kit, seen, number);
         let panel = self.panels.entry(seen.mapping).or_insert_with(make);
         panel.prepare(kit, seen, number);
-        panel.draw(kit, encoder, seen, frame.look(), &map.view);
+        panel.draw(kit, encoder, pipeline, seen, frame.look(), &map.view);
+        true
     }
 
     /// Counts what is alive.
@@ -415,7 +456,7 @@ impl Renderer {
         self.report.textures = textures.len();
         self.report.texture_bytes = textures.into_iter().map(texture_bytes).sum();
         self.report.pipelines = self.bakers.len()
-            + self.panels.len()
+            + self.panel_passes.len()
             + self.viewport.as_ref().map_or(0, Viewport::pipeline_count);
     }
 }

@@ -6,6 +6,7 @@ use super::frame::{Frame, Look, ViewportFrame};
 use super::kit::{Kit, VIEW_FORMAT, Variant, viewport_source};
 use super::map::Map;
 use super::uniforms::{View, vec4};
+use super::workshop::Workshop;
 use crate::mapping::MappingId;
 use crate::scene::Object;
 
@@ -26,7 +27,7 @@ pub(super) struct Viewport {
     targets: Targets,
     block: wgpu::Buffer,
     mesh: GpuMesh,
-    pipelines: BTreeMap<Key, wgpu::RenderPipeline>,
+    pipelines: Workshop<Key>,
 }
 
 /// What the viewport is drawn on.
@@ -66,7 +67,7 @@ impl Viewport {
             id,
             block: kit.block_buffer("view", size_of::<View>()),
             mesh: GpuMesh::new(kit, frame.object),
-            pipelines: BTreeMap::new(),
+            pipelines: Workshop::new(pipeline),
         }
     }
 
@@ -88,7 +89,23 @@ impl Viewport {
     /// Drops the pipelines of mappings that the frame does not look up.
     pub fn keep_only(&mut self, frame: &ViewportFrame) {
         self.pipelines
-            .retain(|(_, id, _, _), _| frame.mappings().any(|used| used == *id));
+            .retain(|(_, id, _, _)| frame.mappings().any(|used| used == *id));
+    }
+
+    /// True when every pipeline that the frame needs is there; see [`Workshop::has`].
+    pub fn is_ready(
+        &mut self,
+        kit: &Kit,
+        frame: &ViewportFrame,
+        maps: &BTreeMap<MappingId, Map>,
+        samples: u32,
+        aside: bool,
+    ) -> bool {
+        let keys = keys(frame, maps, samples);
+        // Every one is asked for, so that all are compiled at the same time.
+        let missing = keys.iter().flatten();
+        let missing = missing.filter(|key| !self.pipelines.has(kit, **key, aside));
+        missing.count() == 0
     }
 
     /// Draws object and sky, left and right of the divider.
@@ -106,12 +123,7 @@ impl Viewport {
             .write_buffer(&self.block, 0, bytemuck::bytes_of(&block));
         let keys = keys(frame, maps, self.targets.sample_count());
         self.pipelines
-            .retain(|key, _| keys.iter().any(|pair| pair.contains(key)));
-        for key in keys.iter().flatten() {
-            self.pipelines
-                .entry(*key)
-                .or_insert_with(|| pipeline(kit, *key));
-        }
+            .retain(|key| keys.iter().any(|pair| pair.contains(key)));
         let samples = self
             .targets
             .samples
@@ -155,7 +167,7 @@ impl Viewport {
         let divider = frame.divider_px();
         let sides = [(0, divider), (divider, width)];
         for ([object, sky_key], (start, end)) in keys.into_iter().zip(sides) {
-            let pair = (self.pipelines.get(&object), self.pipelines.get(&sky_key));
+            let pair = (self.pipelines.get(object), self.pipelines.get(sky_key));
             let ((Some(object), Some(sky)), Some(map)) = (pair, maps.get(&sky_key.1)) else {
                 continue;
             };

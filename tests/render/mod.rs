@@ -86,6 +86,7 @@ pub fn frame(viewport: Option<ViewportFrame>, panels: &[PanelFrame]) -> Frame {
         viewport,
         panels: panels.to_vec(),
         complete: true,
+        compile_aside: false,
     }
 }
 
