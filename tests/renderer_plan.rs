@@ -240,8 +240,10 @@ fn shaders_compiled_aside_give_the_same_picture_and_keep_nobody_waiting() {
         compile_aside: true,
         ..seen.clone()
     };
+    // On GL a device belongs to one thread at a time, so there nothing is compiled aside.
+    let on_gl = aside.gpu().adapter_info.backend == wgpu::Backend::Gl;
     let first = aside.draw(&patient).unwrap();
-    assert!(first.is_pending(), "every shader was there at once");
+    assert_eq!(first.is_pending(), !on_gl, "{first}");
     let mut settle = |frame: &Frame| {
         for _ in 0..2000 {
             if !aside.draw(frame).unwrap().is_pending() {
