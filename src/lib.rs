@@ -8,6 +8,7 @@
 //! - [`optics`]: what happens to a ray before it looks up the map;
 //! - [`scene`]: camera, objects and what the pointer hits;
 //! - [`imaging`]: environments as pictures: reading, checking, computing, writing;
+//! - [`meshes`]: user models: OBJ and glTF files as meshes;
 //! - `gpu` (feature `explorer`): the renderer;
 //! - `app` (feature `explorer`): the window;
 //! - [`cli`]: the command line.
@@ -20,5 +21,6 @@ pub mod gpu;
 pub mod imaging;
 pub mod mapping;
 pub mod math;
+pub mod meshes;
 pub mod optics;
 pub mod scene;

@@ -5,22 +5,25 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// A layer and those that it may use. `main.rs` puts `app` and `cli` together; `lib.rs` lists them.
-const LAYERS: [(&str, &[&str]); 8] = [
+const LAYERS: [(&str, &[&str]); 9] = [
     ("math", &[]),
     ("mapping", &["math"]),
     ("optics", &["math"]),
     ("scene", &["math", "optics"]),
     ("imaging", &["math", "mapping"]),
+    ("meshes", &["math", "scene", "imaging"]),
     ("gpu", &["math", "mapping", "optics", "scene", "imaging"]),
     ("cli", &["math", "mapping", "optics", "scene", "imaging"]),
     (
         "app",
-        &["math", "mapping", "optics", "scene", "imaging", "gpu"],
+        &[
+            "math", "mapping", "optics", "scene", "imaging", "meshes", "gpu",
+        ],
     ),
 ];
 
 /// Outside crates that stay behind one layer's door, and the layers that may name them.
-const FENCED_CRATES: [(&str, &[&str]); 14] = [
+const FENCED_CRATES: [(&str, &[&str]); 18] = [
     ("wgpu", &["gpu", "app"]),
     ("bytemuck", &["gpu"]),
     ("pollster", &["gpu"]),
@@ -28,10 +31,14 @@ const FENCED_CRATES: [(&str, &[&str]); 14] = [
     ("eframe", &["app"]),
     ("egui_wgpu", &["app"]),
     ("egui_tiles", &["app"]),
+    ("egui_plot", &["app"]),
     ("rfd", &["app"]),
     ("clap", &["cli"]),
     ("image", &["imaging"]),
     ("exr", &["imaging"]),
+    ("gltf", &["meshes"]),
+    ("tobj", &["meshes"]),
+    ("base64", &["meshes"]),
     ("png", &["imaging"]),
     ("half", &["imaging", "gpu"]),
     ("naga", &[]), // tests only

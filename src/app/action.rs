@@ -4,11 +4,12 @@ use crate::gpu::ToneCurve;
 use crate::imaging::Environment;
 use crate::mapping::{ChartPoint, MappingId};
 use crate::math::Vec3;
+use crate::optics::Material;
 use crate::scene::Object;
 
 use super::arrangement::Pane;
 use super::probe;
-use super::state::{AppState, EyeRay, InspectorState, Overlays, PanelState, unit};
+use super::state::{AppState, EyeRay, InspectorState, Overlays, PanelState, StoryState, unit};
 
 /// One change of the state.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,16 @@ pub enum Action {
     SetDivider(f32),
     /// Another mirror object.
     SetObject(Object),
+    /// Fineness of the object's triangles.
+    SetDensity(u32),
+    /// Another material, or other parameters.
+    SetMaterial(Box<Material>),
+    /// Put another material right of the divider, or take it away.
+    SetCompareMaterial(Option<Box<Material>>),
+    /// Show or hide the reflectance curves.
+    SetCurvesOpen(bool),
+    /// Show or hide the ray story, or go to one of its steps.
+    SetStory(StoryState),
     /// Turn the camera by these angles in radians.
     Orbit {
         /// To the right.
@@ -80,6 +91,8 @@ impl Action {
             Self::SetDivider(_) => Some(("divider", None)),
             Self::SetExposure(_) => Some(("exposure", None)),
             Self::SetTexelBudget(_) => Some(("texels", None)),
+            Self::SetDensity(_) => Some(("density", None)),
+            Self::SetMaterial(_) => Some(("material", None)),
             Self::SetPanelView(view) => Some(("panel", Some(view.mapping))),
             _ => None,
         }
@@ -114,6 +127,22 @@ pub fn apply(state: &mut AppState, action: Action) {
             state.object = object;
             // The ray was reflected by the other object.
             state.eye_ray = None;
+        }
+        Action::SetDensity(density) => {
+            let (low, high) = super::state::DENSITY_RANGE;
+            state.density = density.clamp(low, high);
+        }
+        Action::SetMaterial(material) => state.material = material.sanitized(),
+        Action::SetCompareMaterial(material) => {
+            state.compare_material = material.map(|m| m.sanitized());
+        }
+        Action::SetCurvesOpen(open) => {
+            state.curves_open = open;
+            state.show_alone(state.maximised);
+        }
+        Action::SetStory(story) => {
+            state.story = story;
+            state.show_alone(state.maximised);
         }
         Action::Orbit { dx_rad, dy_rad } => state.camera.orbit(dx_rad, dy_rad),
         Action::Zoom(factor) => state.camera.zoom(factor),

@@ -15,6 +15,10 @@ pub enum Pane {
     Viewport,
     /// The unfolded picture of a mapping.
     Map(MappingId),
+    /// Reflectance over the angle of incidence.
+    Curves,
+    /// The ray story.
+    Story,
 }
 
 impl Pane {
@@ -23,6 +27,8 @@ impl Pane {
         match self {
             Self::Viewport => "Viewport",
             Self::Map(mapping) => mapping.info().name,
+            Self::Curves => "Reflectance",
+            Self::Story => "Ray story",
         }
     }
 }

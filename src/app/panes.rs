@@ -7,8 +7,8 @@ use egui_tiles::{
 use super::action::Action;
 use super::arrangement::Pane;
 use super::model::Model;
-use super::state::AppState;
-use super::{map_panel, viewport};
+use super::state::{AppState, StoryState};
+use super::{curves, map_panel, story, viewport};
 
 /// The first arrangement: the viewport above a grid of the open panels.
 pub fn first_tree(state: &AppState) -> Tree<Pane> {
@@ -47,9 +47,10 @@ pub fn follow(tree: &mut Tree<Pane>, state: &AppState) {
     if find(tree, Pane::Viewport).is_none() {
         *tree = first_tree(state);
     }
-    for panel in &state.panels {
-        match (panel.open, find(tree, Pane::Map(panel.mapping))) {
-            (true, None) => insert(tree, Pane::Map(panel.mapping)),
+    let maps = state.panels.iter().map(|panel| Pane::Map(panel.mapping));
+    for pane in maps.chain([Pane::Curves, Pane::Story]) {
+        match (state.is_open(pane), find(tree, pane)) {
+            (true, None) => insert(tree, pane),
             (false, Some(id)) => {
                 tree.remove_recursively(id);
             }
@@ -97,6 +98,8 @@ fn pane_ui(ui: &mut egui::Ui, model: &mut Model<'_>, pane: Pane) {
     match pane {
         Pane::Viewport => viewport::viewport_ui(ui, model),
         Pane::Map(mapping) => map_panel::map_panel_ui(ui, model, mapping),
+        Pane::Curves => curves::curves_ui(ui, model),
+        Pane::Story => story::story_ui(ui, model),
     }
 }
 
@@ -115,12 +118,23 @@ impl Behavior<Pane> for PaneBehavior<'_, '_> {
     }
 
     fn is_tab_closable(&self, tiles: &Tiles<Pane>, tile: TileId) -> bool {
-        matches!(tiles.get(tile), Some(Tile::Pane(Pane::Map(_))))
+        matches!(tiles.get(tile), Some(Tile::Pane(pane)) if *pane != Pane::Viewport)
     }
 
     fn on_tab_close(&mut self, tiles: &mut Tiles<Pane>, tile: TileId) -> bool {
-        if let Some(Tile::Pane(Pane::Map(mapping))) = tiles.get(tile) {
-            self.model.push(Action::SetPanelOpen(*mapping, false));
+        match tiles.get(tile) {
+            Some(Tile::Pane(Pane::Map(mapping))) => {
+                self.model.push(Action::SetPanelOpen(*mapping, false));
+            }
+            Some(Tile::Pane(Pane::Curves)) => self.model.push(Action::SetCurvesOpen(false)),
+            Some(Tile::Pane(Pane::Story)) => {
+                let story = self.model.state.story;
+                self.model.push(Action::SetStory(StoryState {
+                    open: false,
+                    ..story
+                }));
+            }
+            _ => {}
         }
         false // the tile goes when the state says so
     }

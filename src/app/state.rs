@@ -8,6 +8,7 @@ use crate::gpu::ToneCurve;
 use crate::imaging::Environment;
 use crate::mapping::MappingId;
 use crate::math::Vec3;
+use crate::optics::Material;
 use crate::scene::{Camera, Object, Ray};
 
 use super::arrangement::{Arrangement, Pane};
@@ -31,8 +32,15 @@ pub struct AppState {
     pub compare: Option<MappingId>,
     /// Place of the divider, 0 (left border) to 1.
     pub divider: f32,
-    /// The mirror object.
+    /// The object.
     pub object: Object,
+    /// Fineness of the object's triangles, in [`DENSITY_RANGE`]; what `density` 1 is made of tells
+    /// [`Object::mesh_at`].
+    pub density: u32,
+    /// What the object is made of.
+    pub material: Material,
+    /// Another material right of the divider.
+    pub compare_material: Option<Material>,
     /// The eye.
     pub camera: Camera,
     /// Exposure in stops: the light is multiplied by 2^ev.
@@ -56,6 +64,10 @@ pub struct AppState {
     pub arrangement: Option<Arrangement>,
     /// The pane that is shown alone.
     pub maximised: Option<Pane>,
+    /// The pane with the reflectance curves is shown.
+    pub curves_open: bool,
+    /// The ray story.
+    pub story: StoryState,
     /// The controls at the left are shown.
     pub controls_open: bool,
     /// What the inspector shows.
@@ -150,12 +162,37 @@ pub struct PanelState {
     pub center: [f32; 2],
 }
 
+/// What the ray story tells, and how far it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct StoryState {
+    /// The pane is shown.
+    pub open: bool,
+    /// Which story.
+    pub kind: StoryKind,
+    /// The step, from 0; beyond the last one it is the last one.
+    pub step: usize,
+}
+
+/// A story of one ray.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StoryKind {
+    /// From the eye to the lookups.
+    #[default]
+    Ray,
+    /// Hoff's derivation of the sphere map, line by line.
+    SphereMap,
+}
+
 /// Smallest and largest magnification of a panel: at the largest, a texel of the finest map fills the panel.
 pub const ZOOM_RANGE: (f32, f32) = (0.5, 4096.0);
 /// Stops of exposure that the slider offers: the range of an HDR photograph.
 pub const EXPOSURE_RANGE: (f32, f32) = (-12.0, 12.0);
 /// Texels of a map: from a cube of 16 x 16 faces to one of 2048 x 2048.
 pub const TEXEL_BUDGET_RANGE: (u32, u32) = (6 * 16 * 16, 6 * 2048 * 2048);
+/// Fineness of the object's triangles: from a coarse body to the smooth one.
+pub const DENSITY_RANGE: (u32, u32) = (1, 32);
 
 impl PanelState {
     /// A panel that shows the whole picture.
@@ -237,6 +274,9 @@ impl Default for AppState {
             compare: None,
             divider: 0.5,
             object: Object::Teapot,
+            density: DENSITY_RANGE.1,
+            material: Material::default(),
+            compare_material: None,
             camera: Camera {
                 yaw_rad: 0.5,
                 pitch_rad: 0.3,
@@ -252,6 +292,8 @@ impl Default for AppState {
             panels,
             arrangement: None,
             maximised: None,
+            curves_open: false,
+            story: StoryState::default(),
             controls_open: true,
             inspector: InspectorState::default(),
         }
@@ -310,6 +352,9 @@ impl AppState {
         self.texel_budget = self
             .texel_budget
             .clamp(TEXEL_BUDGET_RANGE.0, TEXEL_BUDGET_RANGE.1);
+        self.density = self.density.clamp(DENSITY_RANGE.0, DENSITY_RANGE.1);
+        self.material = self.material.sanitized();
+        self.compare_material = self.compare_material.map(Material::sanitized);
         self.probe = unit(self.probe);
         self.eye_ray = self.eye_ray.filter(|eye| {
             let ray = eye.ray();
@@ -337,6 +382,16 @@ impl AppState {
         found.copied().unwrap_or(PanelState::new(mapping, false))
     }
 
+    /// True when a pane is shown.
+    pub fn is_open(&self, pane: Pane) -> bool {
+        match pane {
+            Pane::Viewport => true,
+            Pane::Curves => self.curves_open,
+            Pane::Story => self.story.open,
+            Pane::Map(mapping) => self.panel(mapping).open,
+        }
+    }
+
     /// The panel of a mapping, to be changed.
     pub fn panel_mut(&mut self, mapping: MappingId) -> Option<&mut PanelState> {
         self.panels.iter_mut().find(|p| p.mapping == mapping)
@@ -344,11 +399,7 @@ impl AppState {
 
     /// Shows a pane alone, unless it is hidden, or all again.
     pub fn show_alone(&mut self, pane: Option<Pane>) {
-        let is_open = |pane: &Pane| match pane {
-            Pane::Viewport => true,
-            Pane::Map(mapping) => self.panel(*mapping).open,
-        };
-        self.maximised = pane.filter(is_open);
+        self.maximised = pane.filter(|pane| self.is_open(*pane));
     }
 
     /// The probe in f64.

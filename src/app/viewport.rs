@@ -11,7 +11,8 @@ use super::theme;
 use super::views::ViewKey;
 use crate::gpu::GREAT_CIRCLE_COLORS;
 use crate::mapping::cube_face::GREAT_CIRCLES;
-use crate::optics::reflect;
+use crate::math;
+use crate::optics;
 use crate::scene::{Camera, Hit, Ray, Target};
 
 /// Radians that the camera turns for a drag over one point.
@@ -83,6 +84,12 @@ pub fn looked_up(target: &Target, ray: Ray) -> (Vec3, Option<Hit>) {
     let hit = target.cast(ray);
     let dir = hit.map_or(ray.dir, |hit| reflect(ray.dir, hit.normal));
     (dir, hit)
+}
+
+/// The mirrored ray in the scene's numbers.
+fn reflect(incident: Vec3, normal: Vec3) -> Vec3 {
+    let [incident, normal] = [incident, normal].map(|v| math::Vec3::from(v.to_array()));
+    optics::reflect(incident, normal).to_array().into()
 }
 
 /// The divider between the two mappings; true while the pointer is on it.

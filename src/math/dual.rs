@@ -127,6 +127,10 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
             self.chain(cos, -sin * rad_per_turn),
         )
     }
+    fn pow(self, exponent: Self) -> Self {
+        let slope = exponent.value * self.value.pow(exponent.value - R::one());
+        self.chain(self.value.pow(exponent.value), slope)
+    }
     fn is_finite(self) -> bool {
         self.value.is_finite()
     }

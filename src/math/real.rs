@@ -36,6 +36,8 @@ pub trait Real:
     fn atan_unit(self) -> Self;
     /// (sin, cos) of an angle given in turns, for |turns| <= 2.
     fn sin_cos_turns(self) -> (Self, Self);
+    /// `self` to the power `exponent`; `self` is not negative and `exponent` is a constant (its derivative takes no part).
+    fn pow(self, exponent: Self) -> Self;
     /// True for neither NaN nor infinite.
     fn is_finite(self) -> bool;
 
@@ -184,6 +186,9 @@ impl Real for f32 {
     fn sin_cos_turns(self) -> (Self, Self) {
         arctan::sin_cos_turns(self)
     }
+    fn pow(self, exponent: Self) -> Self {
+        self.powf(exponent)
+    }
     fn is_finite(self) -> bool {
         f32::is_finite(self)
     }
@@ -209,6 +214,9 @@ impl Real for f64 {
         let quarters = (self * 4.0).round();
         let (sin, cos) = ((self * 4.0 - quarters) * std::f64::consts::FRAC_PI_2).sin_cos();
         arctan::turn_by_quarters(quarters.to_f64() as i32, sin, cos)
+    }
+    fn pow(self, exponent: Self) -> Self {
+        self.powf(exponent)
     }
     fn is_finite(self) -> bool {
         f64::is_finite(self)

