@@ -94,9 +94,10 @@ fn reflect(incident: Vec3, normal: Vec3) -> Vec3 {
 
 /// The divider between the two mappings; true while the pointer is on it.
 fn divider_ui(ui: &mut Ui, model: &mut Model<'_>, rect: Rect) -> bool {
-    let Some(compare) = model.state.compare else {
+    if !model.state.is_divided() {
         return false;
-    };
+    }
+    let compare = model.state.compare.unwrap_or(model.state.mapping);
     let x = rect.min.x + model.state.divider * rect.width();
     let grip = Rect::from_min_max(
         pos2(x - DIVIDER_GRIP, rect.min.y),

@@ -8,10 +8,12 @@
 pub mod glass;
 pub mod material;
 pub mod metal;
+pub mod presets;
 pub mod reflectance;
 pub mod reflection;
 pub mod refraction;
 pub mod spectrum;
+pub mod wavelengths;
 
 pub use material::Material;
 pub use reflectance::Formula;
