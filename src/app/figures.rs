@@ -239,6 +239,8 @@ impl Figure {
         state.camera = Camera {
             yaw_rad: 0.5,
             pitch_rad: 0.3,
+            // The teapot is flatter than the ball that holds it.
+            distance: if object == Object::Teapot { 2.3 } else { 3.2 },
             ..Camera::default()
         };
         state.material = material;

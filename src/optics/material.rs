@@ -314,6 +314,40 @@ impl Material {
         }
     }
 
+    /// What it is in a few words, for a label beside a picture of it.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let formula = self.formula.name();
+        let refracts = matches!(self.surface, Surface::Dielectric | Surface::Glass);
+        match self.view {
+            View::Whole => match self.surface {
+                Surface::Mirror if self.printed_reflection => "mirror, the paper's sign".to_owned(),
+                Surface::Mirror if self.shading != Shading::PerPixel => {
+                    format!("mirror, {}", self.shading.name())
+                }
+                Surface::Metal => self.metal.name().to_owned(),
+                Surface::Veil if self.opacity_by_angle => "opacity 1 − cos".to_owned(),
+                Surface::Veil => format!("opacity {:.2}", self.opacity),
+                _ if refracts && self.surfaces == Surfaces::Both => {
+                    format!("{}, both surfaces", self.body_name())
+                }
+                _ if refracts => format!("{}, {formula}", self.body_name()),
+                surface => surface.name().to_owned(),
+            },
+            View::Reflectance => format!("reflectance: {formula}"),
+            View::Difference => format!("{formula} less {}", self.other_formula.name()),
+            view => view.name().to_owned(),
+        }
+    }
+
+    fn body_name(&self) -> String {
+        match (self.surface, self.dispersion) {
+            (Surface::Glass, Dispersion::Spectral) => self.glass.name().to_owned(),
+            (Surface::Glass, dispersion) => dispersion.name().to_owned(),
+            _ => format!("index {:.3}", self.index),
+        }
+    }
+
     /// True when light is followed through the body's second surface.
     #[must_use]
     pub fn is_through(&self) -> bool {
