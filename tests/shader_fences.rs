@@ -22,6 +22,7 @@ fn passes() -> Vec<(String, String)> {
     let mut passes = vec![
         ("plain".to_owned(), shader::plain("")),
         ("halve".to_owned(), kit::HALVE.to_owned()),
+        ("ball".to_owned(), ball_pass()),
     ];
     let every_overlay = kit::Variant {
         great_circles: true,
@@ -47,6 +48,38 @@ fn passes() -> Vec<(String, String)> {
         }
     }
     passes
+}
+
+/// The path through a ball, called as a viewport would.
+fn ball_pass() -> String {
+    let formulas = [
+        "FRESNEL_S",
+        "FRESNEL_P",
+        "SCHLICK",
+        "CG",
+        "SIMPLE",
+        "PRINTED_SIGN",
+        "PRINTED_MIX",
+    ];
+    let mut body = String::new();
+    for (place, name) in formulas.iter().enumerate() {
+        body += &format!("const FORMULA_{name}: u32 = {}u;\n", place + 1);
+    }
+    body += include_str!("../shaders/optics.wgsl");
+    body += shader::BALL;
+    body += "
+        fn through(incident: vec3f, normal: vec3f, eta: f32, bounces: u32) -> vec4f {
+            var sum = vec4f(0.0);
+            var ray = ball_enter(incident, normal, eta);
+            for (var i = 0u; i <= bounces; i++) {
+                sum += vec4f(ball_exit_dir(ray) + ball_inside_dir(ray), 1.0) * ball_exit_weight(ray);
+                sum.w += ball_left_weight(ray);
+                ray = ball_bounce(ray);
+            }
+            return sum;
+        }
+    ";
+    shader::plain(&body)
 }
 
 /// Built-ins that a shading language may answer with 4096 ULP or an absolute error.
@@ -231,7 +264,11 @@ fn no_inverse_trigonometric_built_in_is_called() {
         assert!(called.is_empty(), "shaders/{path} calls {called:?}");
     }
     let twins = MappingId::ALL.iter().map(|id| (id.prefix(), id.wgsl()));
-    for (name, text) in twins.chain([("math", shader::MATH), ("cube_face", shader::CUBE_FACE)]) {
+    for (name, text) in twins.chain([
+        ("math", shader::MATH),
+        ("cube_face", shader::CUBE_FACE),
+        ("ball", shader::BALL),
+    ]) {
         let called = wgsl::calls(text, &TWIN_BUILT_INS);
         assert!(called.is_empty(), "{name} calls {called:?}");
     }
