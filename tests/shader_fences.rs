@@ -265,7 +265,11 @@ fn no_inverse_trigonometric_built_in_is_called() {
         assert!(called.is_empty(), "shaders/{path} calls {called:?}");
     }
     let twins = MappingId::ALL.iter().map(|id| (id.prefix(), id.wgsl()));
-    for (name, text) in twins.chain([("math", shader::MATH), ("cube_face", shader::CUBE_FACE)]) {
+    for (name, text) in twins.chain([
+        ("math", shader::MATH),
+        ("cube_face", shader::CUBE_FACE),
+        ("ball", shader::BALL),
+    ]) {
         let called = wgsl::calls(text, &TWIN_BUILT_INS);
         assert!(called.is_empty(), "{name} calls {called:?}");
     }

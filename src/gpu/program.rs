@@ -122,7 +122,6 @@ impl Program {
                 concat!($(include_str!(concat!("../../shaders/object/", $name, ".wgsl"))),+)
             };
         }
-        const BALL_PATHS: &str = include_str!("../../shaders/ball.wgsl");
         const TRACED: &str = files!("through_traced" "through");
         const THROUGH_BALL: &str = files!("through_ball" "through");
         let text = match self {
@@ -142,7 +141,7 @@ impl Program {
             Self::Difference(..) => files!("per_pixel" "view_difference"),
             Self::Opacity => files!("per_pixel" "opacity" "view_opacity"),
             Self::ThroughBall | Self::ThroughBallDifference(_) => {
-                return self.constants() + files!("per_pixel") + BALL_PATHS + THROUGH_BALL;
+                return self.constants() + files!("per_pixel") + super::shader::BALL + THROUGH_BALL;
             }
             Self::Traced | Self::TracedDifference(_) => {
                 return self.constants() + files!("per_pixel") + TRACED;
