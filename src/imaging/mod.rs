@@ -8,6 +8,7 @@
 //! - [`png_out`] and [`atomic`]: pictures to files, whole or not at all.
 
 pub mod atomic;
+pub(crate) mod caught;
 pub mod computed;
 mod environment;
 mod file;
@@ -20,6 +21,7 @@ pub mod srgb;
 
 pub use environment::{Environment, FACE_COLORS};
 pub use file::open_regular;
+pub(crate) use file::{ReadProblem, read_whole};
 pub use image::{Image, ImageSizeError};
 pub use load::{LoadError, LoadProblem, Loaded};
 pub use progress::{Progress, Stage};
