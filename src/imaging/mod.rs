@@ -10,6 +10,7 @@
 
 pub mod atomic;
 pub mod ball;
+pub(crate) mod caught;
 pub mod computed;
 mod environment;
 mod file;
@@ -22,6 +23,7 @@ pub mod srgb;
 
 pub use environment::{Environment, FACE_COLORS};
 pub use file::open_regular;
+pub(crate) use file::{ReadProblem, read_whole};
 pub use image::{Image, ImageSizeError};
 pub use load::{LoadError, LoadProblem, Loaded};
 pub use progress::{Progress, Stage};

@@ -3,20 +3,19 @@
 //! The declared size is read from the header and judged before a decoder sees the file: failed allocations end the
 //! process and cannot be caught. Reading a header holds no more than the header's own bytes.
 
-mod caught;
 mod exr;
 mod hdr;
 mod header;
 mod jpeg;
 mod png;
 
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 use thiserror::Error;
 
 use super::sanitize::{BadTexels, Originals, sanitize};
-use super::{Image, Progress, Stage, open_regular};
+use super::{Image, Progress, ReadProblem, Stage, read_whole};
 
 /// Most texels in a row: twice the largest height.
 pub const MOST_WIDTH: u32 = 16384;
@@ -201,6 +200,17 @@ pub enum LoadProblem {
     },
 }
 
+impl From<ReadProblem> for LoadProblem {
+    fn from(problem: ReadProblem) -> Self {
+        match problem {
+            ReadProblem::Cancelled => Self::Cancelled,
+            ReadProblem::Io(error) => Self::Io(error),
+            ReadProblem::TooLong(bytes) => Self::FileTooLong { bytes },
+            ReadProblem::OutOfMemory(bytes) => Self::OutOfMemory { bytes },
+        }
+    }
+}
+
 impl LoadProblem {
     fn damaged(format: Format, reason: impl ToString) -> Self {
         Self::Damaged {
@@ -228,9 +238,12 @@ pub fn load_ball(path: &Path, progress: &Progress) -> Result<Loaded, LoadError> 
 
 fn load_shaped(path: &Path, shape: Shape, progress: &Progress) -> Result<Loaded, LoadError> {
     let name = path.display().to_string();
-    match read(path, progress) {
+    match read_whole(path, MOST_FILE_BYTES, progress) {
         Ok(bytes) => load_shaped_bytes(&bytes, shape, &name, progress),
-        Err(problem) => Err(LoadError { problem, name }),
+        Err(problem) => Err(LoadError {
+            problem: problem.into(),
+            name,
+        }),
     }
 }
 
@@ -268,34 +281,6 @@ fn format_of(bytes: &[u8]) -> Result<Format, LoadProblem> {
     Format::of(bytes).ok_or_else(|| LoadProblem::UnknownFormat {
         start: bytes[..bytes.len().min(8)].to_vec(),
     })
-}
-
-fn read(path: &Path, progress: &Progress) -> Result<Vec<u8>, LoadProblem> {
-    const STEP: usize = 1 << 22;
-    progress.enter(Stage::Reading);
-    let file = open_regular(path).map_err(LoadProblem::Io)?;
-    let length = file.metadata().map_err(LoadProblem::Io)?.len();
-    if length > MOST_FILE_BYTES {
-        return Err(LoadProblem::FileTooLong { bytes: length });
-    }
-    let mut file = file.take(MOST_FILE_BYTES + 1);
-    let mut bytes = reserved(length as usize)?;
-    while (&mut file)
-        .take(STEP as u64)
-        .read_to_end(&mut bytes)
-        .map_err(LoadProblem::Io)?
-        > 0
-    {
-        progress.step(bytes.len(), length as usize);
-        stop_if_cancelled(progress)?;
-    }
-    // The file may have grown since its length was asked for.
-    if bytes.len() as u64 > MOST_FILE_BYTES {
-        return Err(LoadProblem::FileTooLong {
-            bytes: bytes.len() as u64,
-        });
-    }
-    Ok(bytes)
 }
 
 fn decode(bytes: &[u8], shape: Shape, progress: &Progress) -> Result<Image, LoadProblem> {
