@@ -284,7 +284,10 @@ fn worst(picture: &RgbaPixels, pixels: &[([u32; 2], Dir, Dir)], material: &Mater
         .iter()
         .filter_map(|(at, incident, normal)| {
             let expected = expected(material, *incident, *normal)?;
-            Some(distance(rgb(picture.pixel(at[0], at[1])), expected))
+            Some(distance(
+                rgb(picture.pixel(at[0], at[1]).unwrap()),
+                expected,
+            ))
         })
         .fold(0.0, f64::max)
 }
@@ -302,10 +305,22 @@ fn every_material_is_drawn_as_computed() {
     for (i, (name, material)) in materials.iter().enumerate() {
         let picture = shot(&mut renderer, &frame(Some(seen(material.clone())), &[]));
         let observed = worst(&picture, &pixels, material);
+        // What a fault extrapolates and what is magnified comes with its error.
+        let factor = match (material.view, material.formula) {
+            (View::Whole, Formula::PrintedSign) => 3.0,
+            (View::SurfaceDifference, _) => f64::from(material.magnification),
+            _ => 1.0,
+        };
+        let observed = observed / factor;
         assert!(observed <= BUDGET, "{name}: {observed:.2} of {BUDGET}");
         largest = largest.max(observed);
         // Control: some other material's numbers do not fit this picture.
-        let (other_name, other) = &materials[(i + 1) % materials.len()];
+        let (other_name, other) = materials
+            .iter()
+            .cycle()
+            .skip(i + 1)
+            .find(|(_, other)| expected(other, pixels[0].1, pixels[0].2).is_some())
+            .unwrap();
         let control = worst(&picture, &pixels, other);
         assert!(
             control > 2.0 * BUDGET,
@@ -320,6 +335,47 @@ fn every_material_is_drawn_as_computed() {
         largest > BUDGET / 4.0,
         "the budget is too wide: {largest:.2}"
     );
+}
+
+#[test]
+fn what_cannot_be_shown_is_marked() {
+    let mut renderer = renderer([64, 32], direction_light);
+    let [total, fault] = sixfold::gpu::kit::MARK_COLORS.map(|color| color.map(f64::from));
+    let printed = Material {
+        formula: Formula::PrintedSign,
+        view: View::Reflectance,
+        ..dielectric(1.5)
+    };
+    // From within glass half of the sphere reflects all light.
+    let inside_out = |view| Material {
+        view,
+        ..dielectric(0.5)
+    };
+    for (material, mark, is_marked) in [
+        (printed.clone(), fault, true),
+        (inside_out(View::Refraction), total, true),
+        (inside_out(View::Discriminant), total, true),
+        (
+            Material {
+                formula: Formula::Schlick,
+                ..printed
+            },
+            fault,
+            false,
+        ),
+    ] {
+        let picture = shot(&mut renderer, &frame(Some(seen(material.clone())), &[]));
+        let view = seen(material.clone());
+        let marked = inside(&view, &view.body.target)
+            .into_iter()
+            .filter(|(_, incident, normal)| expected(&material, *incident, *normal).is_none());
+        // Three quarters of the mark over whatever lies below, or one quarter.
+        let stripes = marked.filter(|(at, ..)| {
+            let pixel = rgb(picture.pixel(at[0], at[1]).unwrap());
+            (0..3).all(|i| pixel[i] > 0.15 * 255.0 * mark[i])
+        });
+        assert_eq!(stripes.count() > 100, is_marked, "{material:?}");
+    }
 }
 
 #[test]
@@ -369,7 +425,7 @@ fn a_ball_picture_is_looked_up_by_the_normal() {
             [0, 1, 2].map(|i| f64::from(picture.rgba[index + i]))
         };
         // From the default eye the ray through the middle sees the normal -z in the picture's middle.
-        let middle = rgb(drawn.pixel(80, 60));
+        let middle = rgb(drawn.pixel(80, 60).unwrap());
         (distance(middle, place(0.0, 0.0)), drawn)
     };
     let (toon, drawn) = show(Style::Toon);
@@ -379,8 +435,8 @@ fn a_ball_picture_is_looked_up_by_the_normal() {
     let differs = pixels.iter().map(|(at, ..)| {
         let at = [at[0], at[1]];
         distance(
-            rgb(drawn.pixel(at[0], at[1])),
-            rgb(other.pixel(at[0], at[1])),
+            rgb(drawn.pixel(at[0], at[1]).unwrap()),
+            rgb(other.pixel(at[0], at[1]).unwrap()),
         )
     });
     assert!(differs.fold(0.0, f64::max) > 50.0);
