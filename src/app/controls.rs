@@ -24,10 +24,10 @@ pub fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
             scene_ui(ui, model);
             heading_ui(ui, "Material");
             material_ui(ui, model);
-            heading_ui(ui, "Light");
-            light_ui(ui, model);
             heading_ui(ui, "Overlays");
             overlays_ui(ui, model);
+            heading_ui(ui, "Light");
+            light_ui(ui, model);
             heading_ui(ui, "Panels");
             panels_ui(ui, model);
         });
@@ -196,6 +196,14 @@ fn panels_ui(ui: &mut Ui, model: &mut Model<'_>) {
         if ui.checkbox(&mut open, mapping.info().name).changed() {
             model.push(Action::SetPanelOpen(mapping, open));
         }
+    }
+    let mut curves = model.state.curves_open;
+    if ui.checkbox(&mut curves, "Reflectance curves").changed() {
+        model.push(Action::SetCurvesOpen(curves));
+    }
+    let mut story = model.state.story;
+    if ui.checkbox(&mut story.open, "Ray story").changed() {
+        model.push(Action::SetStory(story));
     }
     if ui.button("Arrange as at first").clicked() {
         model.push(Command::ResetArrangement);

@@ -36,14 +36,6 @@ pub fn material_ui(ui: &mut Ui, model: &mut Model<'_>) {
         model.push(Action::SetMaterial(Box::new(material)));
     }
     compare_ui(ui, model);
-    let mut curves = model.state.curves_open;
-    if ui.checkbox(&mut curves, "reflectance curves").changed() {
-        model.push(Action::SetCurvesOpen(curves));
-    }
-    let mut story = model.state.story;
-    if ui.checkbox(&mut story.open, "ray story").changed() {
-        model.push(Action::SetStory(story));
-    }
 }
 
 fn choose_into<T: PartialEq + Clone>(
