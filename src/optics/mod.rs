@@ -5,6 +5,7 @@
 //! surface, `reflected` and `refracted` away from it, `normal` may point to either side and is turned to face the incident ray.
 //! `eta` is n1/n2: the refractive index on the side that the ray comes from over the index on the other side.
 
+pub mod curve;
 pub mod glass;
 pub mod material;
 pub mod metal;
