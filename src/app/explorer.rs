@@ -22,7 +22,7 @@ use super::picture;
 use super::state::AppState;
 use super::texel_color::{TexelColor, TexelKey};
 use super::views::{ViewKey, Views};
-use super::{bars, controls, inspector, keys};
+use super::{bars, controls, inspector, keys, story};
 use crate::gpu::{Gpu, Renderer};
 use crate::scene::{Object, Target};
 
@@ -159,7 +159,7 @@ impl Explorer {
             }
             self.run(ctx, Command::Open(file.path().to_owned()));
         }
-        for command in keys::commands(ctx, &self.state, &mut self.dialog) {
+        for command in keys::commands(ctx, &self.state, &self.target.1, &mut self.dialog) {
             self.run(ctx, command);
         }
         self.poll_jobs(ctx);
@@ -228,6 +228,7 @@ impl Explorer {
             history: &self.history,
             target: &self.target.1,
             surroundings: self.surroundings.as_ref(),
+            story: story::steps_if_open(&self.state, &self.target.1),
             texel_color: self.probed,
             plan: &self.plan,
             frames: self.frames,
