@@ -12,7 +12,9 @@ use crate::scene::Object;
 use super::arrangement::Pane;
 use super::figures::Figure;
 use super::probe;
-use super::state::{AppState, EyeRay, InspectorState, Overlays, PanelState, StoryState, unit};
+use super::state::{
+    AppState, CurvesState, EyeRay, InspectorState, Overlays, PanelState, StoryState, unit,
+};
 
 /// One change of the state.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +41,8 @@ pub enum Action {
     ShowFigure(Figure),
     /// Show or hide the reflectance curves.
     SetCurvesOpen(bool),
+    /// Other curves.
+    SetCurves(CurvesState),
     /// Show or hide the ray story, or go to one of its steps.
     SetStory(StoryState),
     /// Turn the camera by these angles in radians.
@@ -100,6 +104,7 @@ impl Action {
             Self::SetTexelBudget(_) => Some(("texels", None)),
             Self::SetDensity(_) => Some(("density", None)),
             Self::SetMaterial(_) => Some(("material", None)),
+            Self::SetStory(_) => Some(("story", None)),
             Self::SetPanelView(view) => Some(("panel", Some(view.mapping))),
             _ => None,
         }
@@ -153,6 +158,7 @@ pub fn apply(state: &mut AppState, action: Action) {
             state.curves_open = open;
             state.show_alone(state.maximised);
         }
+        Action::SetCurves(curves) => state.curves = curves,
         Action::SetStory(story) => {
             state.story = story;
             state.show_alone(state.maximised);

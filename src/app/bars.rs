@@ -51,6 +51,14 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
             if ui.checkbox(&mut inspector.open, "Inspector").changed() {
                 model.push(Action::SetInspector(inspector));
             }
+            let mut curves = model.state.curves_open;
+            if ui.checkbox(&mut curves, "Reflectance curves").changed() {
+                model.push(Action::SetCurvesOpen(curves));
+            }
+            let mut story = model.state.story;
+            if ui.checkbox(&mut story.open, "Ray story").changed() {
+                model.push(Action::SetStory(story));
+            }
             if ui.button("Reset the view   R").clicked() {
                 model.push(Action::ResetCamera);
                 ui.close();
@@ -103,6 +111,10 @@ const HELP: &[(&str, &str)] = &[
     ("arrows", "move the probe by texels (Shift: by ten)"),
     ("W A S D", "turn the camera"),
     ("+ −", "move the camera nearer or farther"),
+    (
+        ", .",
+        "step through the ray story (also Page Up, Page Down)",
+    ),
     ("R", "reset the view"),
 ];
 

@@ -23,7 +23,7 @@ use super::picture;
 use super::state::AppState;
 use super::texel_color::{TexelColor, TexelKey};
 use super::views::{ViewKey, Views};
-use super::{bars, controls, inspector, keys};
+use super::{bars, controls, inspector, keys, story};
 use crate::gpu::{Gpu, Renderer};
 
 use jobs::{Errand, Ready};
@@ -161,7 +161,7 @@ impl Explorer {
             }
             self.run(ctx, Command::Open(file.path().to_owned()));
         }
-        for command in keys::commands(ctx, &self.state, &mut self.dialog) {
+        for command in keys::commands(ctx, &self.state, self.object.target(), &mut self.dialog) {
             self.run(ctx, command);
         }
         self.poll_jobs(ctx);
@@ -231,6 +231,7 @@ impl Explorer {
             history: &self.history,
             target: self.object.target(),
             surroundings: self.surroundings.as_ref(),
+            story: story::steps_if_open(&self.state, self.object.target()),
             texel_color: self.probed,
             plan: &self.plan,
             frames: self.frames,

@@ -6,6 +6,8 @@ use super::action::Action;
 use super::command::Command;
 use super::dialogs::{Dialog, PictureDialog, SaveDialog};
 use super::state::AppState;
+use super::story;
+use crate::scene::Target;
 
 /// Radians that one press turns the camera: five degrees.
 const TURN_RAD: f32 = 5.0 * std::f32::consts::PI / 180.0;
@@ -15,7 +17,12 @@ const STEP: f32 = 1.1;
 const STRIDE: i32 = 10;
 
 /// The commands of the keys that were pressed. While text is typed or a dialog is open, the keys belong there.
-pub fn commands(ctx: &Context, state: &AppState, dialog: &mut Option<Dialog>) -> Vec<Command> {
+pub fn commands(
+    ctx: &Context,
+    state: &AppState,
+    target: &Target,
+    dialog: &mut Option<Dialog>,
+) -> Vec<Command> {
     let mut commands = Vec::new();
     if ctx.egui_wants_keyboard_input() || dialog.is_some() {
         return commands;
@@ -62,6 +69,15 @@ pub fn commands(ctx: &Context, state: &AppState, dialog: &mut Option<Dialog>) ->
     }
     if pressed(Key::Minus) {
         commands.push(Action::Zoom(1.0 / STEP).into());
+    }
+    for (keys, forward) in [
+        ([Key::Comma, Key::PageUp], false),
+        ([Key::Period, Key::PageDown], true),
+    ] {
+        if state.story.open && keys.into_iter().any(pressed) {
+            let steps = story::steps_if_open(state, target);
+            commands.extend(story::walked(state.story, &steps, forward).map(Command::from));
+        }
     }
     if pressed(Key::R) {
         commands.push(Action::ResetCamera.into());

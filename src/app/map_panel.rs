@@ -3,14 +3,16 @@
 use egui::{Align2, Color32, PointerButton, Pos2, Rect, Response, Sense, Ui};
 
 use super::action::{Action, probe_at};
-use super::marks::{cross_mark, edged_line, edged_text, footprint};
+use super::marks::{cross_mark, dot, edged_line, edged_text, footprint, ring};
 use super::model::Model;
 use super::panel_view::PanelWindow;
 use super::probe::{face_outline, picture_lines, texel_outline};
 use super::state::PanelState;
+use super::story::StoryStep;
 use super::theme;
 use super::views::ViewKey;
 use crate::mapping::{Layout, MappingId};
+use crate::math::Vec3;
 
 /// The window of a panel over a rectangle of the screen.
 pub fn window_of(view: &PanelState, rect: Rect) -> PanelWindow {
@@ -37,6 +39,9 @@ pub fn map_panel_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
     }
     if model.state.overlays.probe {
         paint_probe(&painter, model, mapping, &window);
+    }
+    if let Some((_, step)) = model.story_step() {
+        paint_story(&painter, step, mapping, &window);
     }
 }
 
@@ -100,6 +105,31 @@ fn paint_chart_names(painter: &egui::Painter, mapping: MappingId, window: &Panel
     }
 }
 
+/// Where a direction lies on the screen.
+fn place_of(mapping: MappingId, dir: Vec3<f64>, window: &PanelWindow) -> Option<Pos2> {
+    let place = mapping
+        .forward(dir)
+        .and_then(|p| mapping.info().layout.picture_from_chart(p))?;
+    Some(window.screen_from_picture(place))
+}
+
+/// The directions of a step of the ray story, and a ring around the one that is looked up.
+fn paint_story(
+    painter: &egui::Painter,
+    step: &StoryStep,
+    mapping: MappingId,
+    window: &PanelWindow,
+) {
+    for mark in &step.marks {
+        if let Some(at) = place_of(mapping, mark.dir, window) {
+            dot(painter, at, mark.color);
+        }
+    }
+    if let Some(at) = step.lookup.and_then(|dir| place_of(mapping, dir, window)) {
+        ring(painter, at, theme::PROBE);
+    }
+}
+
 /// The probe's face, its texel and itself; grey where the map has no texel of its own for the direction.
 fn paint_probe(
     painter: &egui::Painter,
@@ -121,11 +151,8 @@ fn paint_probe(
     }
     let size = model.map_size(model.state.mapping);
     let texel = lines(&texel_outline(model.state.mapping, size, dir));
-    let place = mapping
-        .forward(dir)
-        .and_then(|p| info.layout.picture_from_chart(p));
-    if let Some(place) = place {
-        cross_mark(painter, window.screen_from_picture(place), color);
+    if let Some(at) = place_of(mapping, dir, window) {
+        cross_mark(painter, at, color);
     }
     footprint(painter, texel);
 }

@@ -24,6 +24,20 @@ pub fn cross_mark(painter: &Painter, at: Pos2, color: Color32) {
     }
 }
 
+/// A dot with a dark edge.
+pub fn dot(painter: &Painter, at: Pos2, color: Color32) {
+    const RADIUS: f32 = 3.5;
+    painter.circle_filled(at, RADIUS + 1.0, PROBE_EDGE.gamma_multiply(0.8));
+    painter.circle_filled(at, RADIUS, color);
+}
+
+/// A ring with a dark edge, wide enough to stand around the probe's mark.
+pub fn ring(painter: &Painter, at: Pos2, color: Color32) {
+    const RADIUS: f32 = 14.0;
+    painter.circle_stroke(at, RADIUS, Stroke::new(3.5, PROBE_EDGE.gamma_multiply(0.8)));
+    painter.circle_stroke(at, RADIUS, Stroke::new(1.5, color));
+}
+
 /// An arrow with its name at the tip.
 pub fn arrow(painter: &Painter, from: Pos2, to: Pos2, color: Color32, name: &str) {
     const HEAD: f32 = 9.0;

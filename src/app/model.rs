@@ -9,6 +9,7 @@ use crate::scene::Target;
 use super::command::Command;
 use super::history::History;
 use super::state::AppState;
+use super::story::StoryStep;
 use super::views::{ViewKey, Views};
 use crate::gpu::Gpu;
 
@@ -58,6 +59,8 @@ pub struct Model<'a> {
     pub target: &'a Target,
     /// The surroundings; `None` until the first ones are there.
     pub surroundings: Option<&'a Surroundings>,
+    /// The steps of the ray story; empty while its pane is closed, and where there is nothing to tell.
+    pub story: Vec<StoryStep>,
     /// Linear colour of the probed texel in the selected map, when it has been read back.
     pub texel_color: Option<[f32; 3]>,
     /// The frame plan's account of the last drawing.
@@ -84,6 +87,13 @@ impl Model<'_> {
     /// Asks for something.
     pub fn push(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());
+    }
+
+    /// The step of the ray story that is shown, counted from 0, and what it tells.
+    pub fn story_step(&self) -> Option<(usize, &StoryStep)> {
+        let last = self.story.len().checked_sub(1)?;
+        let index = self.state.story.step.min(last);
+        Some((index, self.story.get(index)?))
     }
 
     /// Size in texels of the charts of a mapping.

@@ -9,7 +9,7 @@ use crate::gpu::ToneCurve;
 use crate::imaging::Environment;
 use crate::mapping::MappingId;
 use crate::math::Vec3;
-use crate::optics::Material;
+use crate::optics::{Formula, Material};
 use crate::scene::{Camera, Object, Ray};
 
 use super::arrangement::{Arrangement, Pane};
@@ -69,6 +69,8 @@ pub struct AppState {
     pub maximised: Option<Pane>,
     /// The pane with the reflectance curves is shown.
     pub curves_open: bool,
+    /// Which curves.
+    pub curves: CurvesState,
     /// The ray story.
     pub story: StoryState,
     /// The controls at the left are shown.
@@ -163,6 +165,25 @@ pub struct PanelState {
     pub zoom: f32,
     /// Picture coordinates of the panel's middle.
     pub center: [f32; 2],
+}
+
+/// What the pane with the reflectance curves shows, beside the exact one.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct CurvesState {
+    /// The formulas whose curves are drawn.
+    pub shown: Vec<Formula>,
+    /// For light that comes from inside the body: eta becomes 1/eta.
+    pub from_inside: bool,
+}
+
+impl Default for CurvesState {
+    fn default() -> Self {
+        Self {
+            shown: vec![Formula::Schlick],
+            from_inside: false,
+        }
+    }
 }
 
 /// What the ray story tells, and how far it is.
@@ -297,6 +318,7 @@ impl Default for AppState {
             arrangement: None,
             maximised: None,
             curves_open: false,
+            curves: CurvesState::default(),
             story: StoryState::default(),
             controls_open: true,
             inspector: InspectorState::default(),

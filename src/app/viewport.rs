@@ -7,6 +7,8 @@ use super::action::Action;
 use super::marks::{arrow, beyond, edged_line, edged_text, footprint};
 use super::model::Model;
 use super::probe::texel_outline;
+use super::state::EyeRay;
+use super::story::{self, Arrow};
 use super::theme;
 use super::views::ViewKey;
 use crate::gpu::GREAT_CIRCLE_COLORS;
@@ -158,8 +160,14 @@ fn paint_marks(ui: &Ui, model: &Model<'_>, rect: Rect) {
     if overlays.axes {
         paint_axes(&painter, model.state.camera, rect);
     }
-    if overlays.vectors {
-        paint_vectors(&painter, model, rect);
+    if let Some((_, step)) = model.story_step() {
+        paint_arrows(&painter, model.state.camera, rect, &step.arrows);
+    } else if overlays.vectors
+        && let Some(ray) = model.state.eye_ray.map(EyeRay::ray)
+        && let Some(hit) = model.target.cast(ray)
+    {
+        let arrows = story::vectors(ray, &hit);
+        paint_arrows(&painter, model.state.camera, rect, &arrows);
     }
     if overlays.probe {
         paint_footprint(&painter, model, rect);
@@ -231,55 +239,33 @@ fn paint_footprint(painter: &egui::Painter, model: &Model<'_>, rect: Rect) {
     footprint(painter, vec![on_screen.collect()]);
 }
 
-/// The incident, normal and reflected vectors where the ray that found the probe met the object.
-fn paint_vectors(painter: &egui::Painter, model: &Model<'_>, rect: Rect) {
-    const LENGTH: f32 = 0.6;
-    let Some(eye) = model.state.eye_ray else {
-        return;
-    };
-    let ray = eye.ray();
-    let (reflected, Some(Hit { point, normal, .. })) = looked_up(model.target, ray) else {
-        return;
-    };
+/// Arrows of the world over the picture, with their names.
+fn paint_arrows(painter: &egui::Painter, camera: Camera, rect: Rect, arrows: &[Arrow]) {
     let screen = |point: Vec3| {
-        let (u, v) = model.state.camera.project(point, aspect(rect))?;
+        let (u, v) = camera.project(point, aspect(rect))?;
         Some(rect.min + vec2(u * rect.width(), v * rect.height()))
     };
-    let Some(at) = screen(point) else { return };
-    let arrows = [
-        (screen(point - ray.dir * LENGTH), Some(at), "incident"),
-        (Some(at), screen(point + normal * LENGTH), "normal"),
-        (Some(at), screen(point + reflected * LENGTH), "reflected"),
-    ];
-    for ((from, to, name), color) in arrows.into_iter().zip(theme::VECTORS) {
-        let (Some(from), Some(to)) = (from, to) else {
+    for Arrow {
+        from,
+        to,
+        name,
+        color,
+        arrives,
+    } in arrows
+    {
+        let (Some(from), Some(to)) = (screen(*from), screen(*to)) else {
             continue;
         };
-        // Seen along itself, as right after pointing, the incident vector is a point: turn the camera to see it.
+        let (root, free) = if *arrives { (to, from) } else { (from, to) };
+        // Seen along itself, as the incident vector right after pointing, an arrow is a point: turn the camera to see it.
         if from.distance(to) < 8.0 {
-            painter.circle_filled(at, 4.0, color);
-            edged_text(
-                painter,
-                at + vec2(-10.0, 12.0),
-                Align2::RIGHT_CENTER,
-                name,
-                color,
-            );
+            painter.circle_filled(root, 4.0, *color);
+            let at = root + vec2(-10.0, 12.0);
+            edged_text(painter, at, Align2::RIGHT_CENTER, name, *color);
         } else {
-            // The incident vector's free end is its beginning, so its name stands there.
-            let (end, along) = if name == "incident" {
-                (from, from - to)
-            } else {
-                (to, to - from)
-            };
-            arrow(painter, from, to, color, "");
-            edged_text(
-                painter,
-                beyond(end, along, name),
-                Align2::CENTER_CENTER,
-                name,
-                color,
-            );
+            arrow(painter, from, to, *color, "");
+            let at = beyond(free, free - root, name);
+            edged_text(painter, at, Align2::CENTER_CENTER, name, *color);
         }
     }
 }

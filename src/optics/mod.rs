@@ -7,6 +7,7 @@
 //! `eta` is n1/n2: the refractive index on the side that the ray comes from over the index on the other side.
 
 pub mod ball;
+pub mod curve;
 pub mod glass;
 pub mod material;
 pub mod metal;
