@@ -6,6 +6,7 @@ pub mod environment;
 pub mod frame;
 pub mod kit;
 pub mod map;
+pub mod optics;
 pub mod overlay;
 mod panel;
 mod plan;
