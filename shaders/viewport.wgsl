@@ -1,4 +1,4 @@
-// The mirror object before its environment, both looked up in one mapping's map.
+// What object and sky share: the view, and one lookup in the mapping's map with what is painted over it.
 
 struct View {
     // From a point relative to the eye, in world axes: the eye's own place is subtracted before any matrix.
@@ -16,46 +16,55 @@ struct View {
 
 @group(0) @binding(0) var<uniform> view: View;
 
-struct ObjectPoint {
-    @builtin(position) position: vec4f,
-    @location(0) relative: vec3f,
-    @location(1) normal: vec3f,
-}
-
-@vertex
-fn object_vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> ObjectPoint {
-    let relative = position - view.eye.xyz;
-    return ObjectPoint(view.clip_from_relative * vec4f(relative, 1.0), relative, normal);
+// What a direction found in the map.
+struct Found {
+    point: ChartPoint,
+    tangents: Tangents,
+    // Linear.
+    light: vec3f,
 }
 
 // `right` and `down`: the change of the unit direction over one pixel.
-fn seen(dir: vec3f, right: vec3f, down: vec3f) -> vec4f {
-    let p = map_forward(dir);
-    if p.chart == NO_CHART {
-        return vec4f(0.0, 0.0, 0.0, 1.0);
+fn look_up(dir: vec3f, right: vec3f, down: vec3f) -> Found {
+    var found: Found;
+    found.point = map_forward(dir);
+    if found.point.chart == NO_CHART {
+        return found;
     }
     let size = chart_size();
-    var tangents: Tangents;
     if NEEDS_LEVEL || SHOW_GRID {
-        tangents = chart_tangents(p, dir, size);
+        found.tangents = chart_tangents(found.point, dir, size);
     }
     var level = 0.0;
     if NEEDS_LEVEL {
-        level = map_level(footprint_rad(right, down), tangents);
+        level = map_level(footprint_rad(right, down), found.tangents);
     }
-    let light = map_light(p, size, level);
-    var color = display_from_light(light, view.eye.w, u32(view.forward.w));
+    found.light = map_light(found.point, size, level);
+    return found;
+}
+
+fn display(light: vec3f) -> vec3f {
+    return display_from_light(light, view.eye.w, u32(view.forward.w));
+}
+
+// The overlays of a direction over a display value.
+fn painted(under: vec3f, found: Found, dir: vec3f, right: vec3f, down: vec3f) -> vec3f {
+    var color = under;
+    if found.point.chart == NO_CHART {
+        return color;
+    }
     if SHOW_FACE_TINT {
         color = paint_face_tint(color, dir);
     }
     if SHOW_GRID {
+        let size = chart_size();
         let change = mat2x2f(
-            coordinates_in(tangents.right, tangents.down, right),
-            coordinates_in(tangents.right, tangents.down, down),
+            coordinates_in(found.tangents.right, found.tangents.down, right),
+            coordinates_in(found.tangents.right, found.tangents.down, down),
         );
         let u_change = length(vec2f(change[0].x, change[1].x)) / size.x;
         let v_change = length(vec2f(change[0].y, change[1].y)) / size.y;
-        color = paint_grid(color, p.u, p.v, vec2f(u_change, v_change));
+        color = paint_grid(color, found.point.u, found.point.v, vec2f(u_change, v_change));
     }
     if SHOW_GREAT_CIRCLES {
         color = paint_great_circles(color, dir, right, down);
@@ -63,32 +72,14 @@ fn seen(dir: vec3f, right: vec3f, down: vec3f) -> vec4f {
     if SHOW_PROBE {
         color = paint_probe(color, view.probe.xyz, dir, right, down);
     }
-    return vec4f(color, 1.0);
+    return color;
 }
 
-@fragment
-fn sky_fragment(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    let target_size = vec2f(view.right.w, view.up.w);
-    let ndc = vec2f(2.0, -2.0) * at.xy / target_size + vec2f(-1.0, 1.0);
-    let ray = view.forward.xyz + ndc.x * view.right.xyz + ndc.y * view.up.xyz;
-    let scale = 1.0 / length_of(ray);
-    let dir = ray * scale;
-    // The derivative of ray/|ray| in closed form.
-    let right = view.right.xyz * (2.0 / target_size.x);
-    let down = view.up.xyz * (-2.0 / target_size.y);
-    return seen(
-        dir,
-        (right - dir * dot(dir, right)) * scale,
-        (down - dir * dot(dir, down)) * scale,
-    );
-}
-
-@fragment
-fn object_fragment(point: ObjectPoint) -> @location(0) vec4f {
-    let incident = unit(point.relative);
-    let normal = unit(point.normal);
-    // At the silhouette the interpolated normal may turn away; it then mirrors what lies straight behind.
-    let facing = min(dot(incident, normal), 0.0);
-    let dir = incident - 2.0 * facing * normal;
-    return seen(dir, dpdx(dir), dpdy(dir));
+// The display value of one direction, overlays included.
+fn seen(dir: vec3f, right: vec3f, down: vec3f) -> vec3f {
+    let found = look_up(dir, right, down);
+    if found.point.chart == NO_CHART {
+        return vec3f(0.0);
+    }
+    return painted(display(found.light), found, dir, right, down);
 }

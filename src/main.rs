@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use sixfold::cli::{self, RenderOptions, Request};
+use sixfold::cli::{self, FigureOptions, RenderOptions, Request};
 
 fn main() -> ExitCode {
     let status = match cli::run(std::env::args_os()) {
         Request::Done(status) => status,
         Request::Explore { scene } => explore(scene),
         Request::Render(options) => render(&options),
+        Request::Figure(options) => figure(&options),
     };
     ExitCode::from(status)
 }
@@ -60,6 +61,10 @@ fn draw(options: &RenderOptions) -> Result<(), (u8, String)> {
             .map(|compare| Action::SetCompare(Some(compare))),
         options.object.map(Action::SetObject),
         environment.map(Action::SetEnvironment),
+        options
+            .material
+            .clone()
+            .map(|material| Action::SetMaterial(Box::new(material))),
     ];
     for action in changes.into_iter().flatten() {
         apply(&mut state, action);
@@ -87,6 +92,71 @@ fn draw(options: &RenderOptions) -> Result<(), (u8, String)> {
     picture::render(&state, &request).map_err(failed)
 }
 
+#[cfg(feature = "explorer")]
+fn figure(options: &FigureOptions) -> u8 {
+    status_of(draw_figures(options))
+}
+
+/// The figures that the options name, each into a file of its name.
+#[cfg(feature = "explorer")]
+fn draw_figures(options: &FigureOptions) -> Result<(), (u8, String)> {
+    use sixfold::app::figures::Figure;
+    use sixfold::app::picture::{self, Destination, PictureRequest, What};
+    use sixfold::app::state::AppState;
+    use sixfold::imaging::{Environment, atomic};
+
+    if options.name == "list" {
+        return list_figures();
+    }
+    let figures = match Figure::from_id(&options.name) {
+        Some(figure) => vec![figure],
+        None if options.name == "all" => Figure::ALL.to_vec(),
+        None => {
+            let names = Figure::ALL.map(Figure::id).join(", ");
+            let line = format!("no figure `{}`; there are: all, {names}", options.name);
+            return Err((cli::USAGE, line));
+        }
+    };
+    let failed = |error: String| (cli::FAILED, error);
+    let path = |figure: &Figure| options.out.join(figure.id()).with_extension("png");
+    std::fs::create_dir_all(&options.out).map_err(|error| {
+        let folder = options.out.display();
+        failed(format!("the folder cannot be made ({error}): {folder}"))
+    })?;
+    // Nothing is drawn before all names are found to be free.
+    for figure in &figures {
+        atomic::check_name(&path(figure), options.force)
+            .map_err(|error| failed(error.to_string()))?;
+    }
+    for figure in &figures {
+        let mut state = AppState::default();
+        figure.show(&mut state);
+        if let Some(id) = &options.environment {
+            state.environment = Environment::from_id(id);
+        }
+        let request = PictureRequest {
+            what: What::Viewport,
+            size: options.size,
+            overlays: false,
+            to: Destination::File {
+                path: path(figure),
+                force: options.force,
+            },
+        };
+        picture::render(&state, &request).map_err(failed)?;
+    }
+    Ok(())
+}
+
+/// Prints each figure's name and title.
+#[cfg(feature = "explorer")]
+fn list_figures() -> Result<(), (u8, String)> {
+    use sixfold::app::figures::Figure;
+    let line = |figure: Figure| format!("{}\t{}\n", figure.id(), figure.title());
+    let text: String = Figure::ALL.map(line).concat();
+    cli::print(&text).map_err(|error| (cli::FAILED, error.to_string()))
+}
+
 #[cfg(not(feature = "explorer"))]
 fn explore(_scene: Option<PathBuf>) -> u8 {
     without_explorer()
@@ -94,6 +164,11 @@ fn explore(_scene: Option<PathBuf>) -> u8 {
 
 #[cfg(not(feature = "explorer"))]
 fn render(_options: &RenderOptions) -> u8 {
+    without_explorer()
+}
+
+#[cfg(not(feature = "explorer"))]
+fn figure(_options: &FigureOptions) -> u8 {
     without_explorer()
 }
 

@@ -23,7 +23,7 @@ fn the_sky_shows_each_direction_through_every_mapping() {
             let mut view = viewport(id);
             view.camera.yaw_rad = f32::from(turn as u8);
             view.camera.pitch_rad = [-1.2, 0.0, 0.7][turn % 3];
-            let shown = shot(&mut renderer, &frame(Some(view), &[]));
+            let shown = shot(&mut renderer, &frame(Some(view.clone()), &[]));
             let [w, h] = view.size_px;
             for at in [
                 [1, 1],
@@ -59,7 +59,7 @@ fn the_middle_of_the_sphere_mirrors_what_lies_behind_the_viewer() {
     for &id in MappingId::ALL {
         let mut view = viewport(id);
         view.size_px = [97, 81];
-        let shown = shot(&mut renderer, &frame(Some(view), &[]));
+        let shown = shot(&mut renderer, &frame(Some(view.clone()), &[]));
         let color = rgb(shown.pixel(48, 40).unwrap());
         let (behind, ahead) = ([0.0, 0.0, -1.0], [0.0, 0.0, 1.0]);
         let off = distance(color, bytes(direction_light(behind)));
@@ -98,7 +98,7 @@ fn seam_errors(renderer: &mut Renderer, id: MappingId, fault: f64) -> [f64; 2] {
             distance: 50.0,
             fov_y_rad: 1.6,
         };
-        let shown = shot(renderer, &frame(Some(view), &[]));
+        let shown = shot(renderer, &frame(Some(view.clone()), &[]));
         let at = |x: u32, y: u32| id.forward(ray(&view.camera, [x, y], view.size_px)).unwrap();
         for y in 1..159 {
             for x in 1..159 {
@@ -313,9 +313,9 @@ fn the_probe_is_marked_in_the_sky() {
     let mut view = viewport(MappingId::Eac);
     let dir = ray(&view.camera, [10, 12], view.size_px).to_f64();
     view.probe = dir.map(|x| x as f32);
-    let without = shot(&mut renderer, &frame(Some(view), &[]));
+    let without = shot(&mut renderer, &frame(Some(view.clone()), &[]));
     view.show_probe = true;
-    let with = shot(&mut renderer, &frame(Some(view), &[]));
+    let with = shot(&mut renderer, &frame(Some(view.clone()), &[]));
     let changed = |x, y| with.pixel(x, y) != without.pixel(x, y);
     assert!(with.pixel(10, 12).unwrap()[0] > 200, "the dot");
     assert!(with.pixel(17, 12).unwrap()[0] > 200, "the ring");

@@ -24,7 +24,7 @@ fn nothing_runs_that_is_not_needed() {
     let both = [panel(Ccm), panel(Cube)];
     let mut seen = Frame {
         complete: false,
-        ..frame(Some(view), &both)
+        ..frame(Some(view.clone()), &both)
     };
 
     // One map a call.
@@ -45,27 +45,27 @@ fn nothing_runs_that_is_not_needed() {
     assert_eq!(renderer.draw(&seen).unwrap().totals.submissions, 2);
 
     // Orbit, probe, object and divider: the viewport alone.
-    let mut changed = view;
+    let mut changed = view.clone();
     changed.camera.orbit(0.3, 0.1);
-    let orbited = changed;
+    let orbited = changed.clone();
     changed.probe = [0.6, 0.0, 0.8];
     changed.show_probe = true;
-    let probed = changed;
-    changed.object = Object::Torus;
-    for view in [orbited, probed, changed] {
+    let probed = changed.clone();
+    changed.body = render::body(Object::Torus);
+    for view in [orbited, probed, changed.clone()] {
         seen.viewport = Some(view);
         assert_eq!(renderer.draw(&seen).unwrap().ran, [Node::Viewport]);
     }
     // A probe that is not shown changes nothing.
     seen.viewport = Some(ViewportFrame {
         show_probe: false,
-        ..changed
+        ..changed.clone()
     });
     renderer.draw(&seen).unwrap();
     seen.viewport = Some(ViewportFrame {
         show_probe: false,
         probe: [1.0, 0.0, 0.0],
-        ..changed
+        ..changed.clone()
     });
     assert!(renderer.draw(&seen).unwrap().ran.is_empty());
 

@@ -13,9 +13,10 @@ use std::f32::consts;
 use std::mem::{offset_of, size_of};
 
 use naga::Literal;
-use sixfold::gpu::{compute, kit, shader, uniforms};
+use sixfold::gpu::{Program, compute, kit, shader, uniforms};
 use sixfold::mapping::{Domain, MappingId, ccm};
 use sixfold::math::{ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS};
+use sixfold::optics::Formula;
 
 /// Every pass of the app: name and whole text. A new pass is a new line here.
 fn passes() -> Vec<(String, String)> {
@@ -35,8 +36,14 @@ fn passes() -> Vec<(String, String)> {
         passes.push((format!("bake {id}"), kit::bake_source(id)));
         passes.push((format!("panel {id}"), kit::panel_source(id)));
         for variant in [kit::Variant::default(), every_overlay] {
-            let name = format!("viewport {id} {variant:?}");
-            passes.push((name, kit::viewport_source(id, variant)));
+            passes.push((
+                format!("sky {id} {variant:?}"),
+                kit::sky_source(id, variant),
+            ));
+            for program in programs() {
+                let name = format!("object {id} {variant:?} {program:?}");
+                passes.push((name, kit::object_source(id, variant, program)));
+            }
         }
         for &source in MappingId::ALL {
             let roles = [("source", source), ("target", id)];
@@ -47,6 +54,33 @@ fn passes() -> Vec<(String, String)> {
         }
     }
     passes
+}
+
+/// Every program of the object; the formulas are a constant each.
+fn programs() -> Vec<Program> {
+    let formula = Formula::Schlick;
+    vec![
+        Program::Mirror { printed: false },
+        Program::Mirror { printed: true },
+        Program::VectorPerVertex,
+        Program::CoordinatesPerVertex,
+        Program::Metal,
+        Program::MetalReflectance,
+        Program::Dielectric(formula),
+        Program::Glass(formula),
+        Program::Veil,
+        Program::Ball,
+        Program::Refraction,
+        Program::Spectrum,
+        Program::Discriminant,
+        Program::Reflectance(formula),
+        Program::Difference(formula, Formula::Cg),
+        Program::Opacity,
+        Program::ThroughBall,
+        Program::ThroughBallDifference(formula),
+        Program::Traced,
+        Program::TracedDifference(formula),
+    ]
 }
 
 /// Built-ins that a shading language may answer with 4096 ULP or an absolute error.
@@ -231,7 +265,11 @@ fn no_inverse_trigonometric_built_in_is_called() {
         assert!(called.is_empty(), "shaders/{path} calls {called:?}");
     }
     let twins = MappingId::ALL.iter().map(|id| (id.prefix(), id.wgsl()));
-    for (name, text) in twins.chain([("math", shader::MATH), ("cube_face", shader::CUBE_FACE)]) {
+    for (name, text) in twins.chain([
+        ("math", shader::MATH),
+        ("cube_face", shader::CUBE_FACE),
+        ("ball", shader::BALL),
+    ]) {
         let called = wgsl::calls(text, &TWIN_BUILT_INS);
         assert!(called.is_empty(), "{name} calls {called:?}");
     }

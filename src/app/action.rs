@@ -1,5 +1,7 @@
 //! Everything that can happen to the state, and what it does. Panels see the state and push actions; nothing else writes.
 
+use std::path::PathBuf;
+
 use crate::gpu::ToneCurve;
 use crate::imaging::Environment;
 use crate::mapping::{ChartPoint, MappingId};
@@ -8,6 +10,7 @@ use crate::optics::Material;
 use crate::scene::Object;
 
 use super::arrangement::Pane;
+use super::figures::Figure;
 use super::probe;
 use super::state::{
     AppState, CurvesState, EyeRay, InspectorState, Overlays, PanelState, StoryState, unit,
@@ -26,12 +29,16 @@ pub enum Action {
     SetDivider(f32),
     /// Another mirror object.
     SetObject(Object),
+    /// A model from a file in place of the object.
+    SetModel(PathBuf),
     /// Fineness of the object's triangles.
     SetDensity(u32),
     /// Another material, or other parameters.
     SetMaterial(Box<Material>),
     /// Put another material right of the divider, or take it away.
     SetCompareMaterial(Option<Box<Material>>),
+    /// Show a figure of the seed articles.
+    ShowFigure(Figure),
     /// Show or hide the reflectance curves.
     SetCurvesOpen(bool),
     /// Other curves.
@@ -130,7 +137,12 @@ pub fn apply(state: &mut AppState, action: Action) {
         Action::SetDivider(_) => {}
         Action::SetObject(object) => {
             state.object = object;
+            state.model = None;
             // The ray was reflected by the other object.
+            state.eye_ray = None;
+        }
+        Action::SetModel(path) => {
+            state.model = Some(path);
             state.eye_ray = None;
         }
         Action::SetDensity(density) => {
@@ -141,6 +153,7 @@ pub fn apply(state: &mut AppState, action: Action) {
         Action::SetCompareMaterial(material) => {
             state.compare_material = material.map(|m| m.sanitized());
         }
+        Action::ShowFigure(figure) => figure.show(state),
         Action::SetCurvesOpen(open) => {
             state.curves_open = open;
             state.show_alone(state.maximised);

@@ -5,6 +5,7 @@ use egui::{ProgressBar, RichText, Ui};
 use super::action::Action;
 use super::command::Command;
 use super::dialogs::{Dialog, PictureDialog, SaveDialog};
+use super::figures::Figure;
 use super::model::Model;
 
 /// The menus. Dialogs are opened by setting `dialog`.
@@ -65,6 +66,14 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
             if ui.button("Arrange the panels as at first").clicked() {
                 model.push(Command::ResetArrangement);
                 ui.close();
+            }
+        });
+        ui.menu_button("Figures", |ui| {
+            for figure in Figure::ALL {
+                if ui.button(figure.title()).clicked() {
+                    model.push(Action::ShowFigure(figure));
+                    ui.close();
+                }
             }
         });
         ui.menu_button("Help", |ui| {

@@ -5,6 +5,7 @@ use egui::{ComboBox, RichText, Slider, Ui};
 use super::action::Action;
 use super::command::Command;
 use super::dialogs::Dialog;
+use super::material_panel::material_ui;
 use super::model::Model;
 use super::state::{EXPOSURE_RANGE, TEXEL_BUDGET_RANGE};
 use crate::gpu::ToneCurve;
@@ -21,10 +22,12 @@ pub fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
             mapping_ui(ui, model);
             heading_ui(ui, "Scene");
             scene_ui(ui, model);
-            heading_ui(ui, "Light");
-            light_ui(ui, model);
+            heading_ui(ui, "Material");
+            material_ui(ui, model);
             heading_ui(ui, "Overlays");
             overlays_ui(ui, model);
+            heading_ui(ui, "Light");
+            light_ui(ui, model);
             heading_ui(ui, "Panels");
             panels_ui(ui, model);
         });
@@ -37,7 +40,7 @@ fn heading_ui(ui: &mut Ui, title: &str) {
 }
 
 /// A labelled list to choose from.
-fn choose_ui<T: PartialEq + Clone>(
+pub(super) fn choose_ui<T: PartialEq + Clone>(
     ui: &mut Ui,
     label: &str,
     now: &T,
@@ -122,18 +125,33 @@ fn scene_ui(ui: &mut Ui, model: &mut Model<'_>) {
     if let Some(text) = model.surroundings.and_then(|s| s.bad_texels().summary()) {
         ui.label(RichText::new(text).small().color(super::theme::TEXEL));
     }
-    let object = choose_ui(ui, "mirror object", &state.object, Object::ALL, |o| {
-        o.name().to_owned()
-    });
-    if let Some(object) = object {
-        model.push(Action::SetObject(object));
-    }
+    object_ui(ui, model);
     if ui
         .button("Reset the view")
         .on_hover_text("Key: R")
         .clicked()
     {
         model.push(Action::ResetCamera);
+    }
+}
+
+/// The built-in objects, and the model from a file while there is one.
+fn object_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    let state = model.state;
+    let own = state.model.as_ref();
+    let name = |object: &Option<Object>| match (object, own) {
+        (Some(object), _) => object.name().to_owned(),
+        (None, Some(path)) => path.file_name().map_or_else(
+            || path.display().to_string(),
+            |name| name.to_string_lossy().into_owned(),
+        ),
+        (None, None) => String::new(),
+    };
+    let now = own.is_none().then_some(state.object);
+    let model_first = own.map(|_| None);
+    let options = model_first.into_iter().chain(Object::ALL.map(Some));
+    if let Some(Some(object)) = choose_ui(ui, "object", &now, options, name) {
+        model.push(Action::SetObject(object));
     }
 }
 
@@ -178,6 +196,14 @@ fn panels_ui(ui: &mut Ui, model: &mut Model<'_>) {
         if ui.checkbox(&mut open, mapping.info().name).changed() {
             model.push(Action::SetPanelOpen(mapping, open));
         }
+    }
+    let mut curves = model.state.curves_open;
+    if ui.checkbox(&mut curves, "Reflectance curves").changed() {
+        model.push(Action::SetCurvesOpen(curves));
+    }
+    let mut story = model.state.story;
+    if ui.checkbox(&mut story.open, "Ray story").changed() {
+        model.push(Action::SetStory(story));
     }
     if ui.button("Arrange as at first").clicked() {
         model.push(Command::ResetArrangement);

@@ -4,16 +4,21 @@ use std::path::PathBuf;
 
 use egui::{ComboBox, DragValue, Modal, TextEdit, Ui};
 
+use super::action::Action;
 use super::command::Command;
 use super::model::Model;
 use super::picture::{Destination, MAX_SIDE, PictureRequest, What};
 use crate::mapping::MappingId;
+use crate::optics::Material;
+use crate::optics::material::{BallPicture, Surface, View};
 
 /// Which dialog is open, and what was typed into it. It belongs to the window, not to the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Dialog {
     /// A path to open.
     Open(String),
+    /// A picture of a ball to open.
+    OpenBall(String),
     /// Where to save the scene.
     SaveScene(SaveDialog),
     /// What picture, how large, where to.
@@ -42,7 +47,7 @@ impl Dialog {
     /// The path that is typed.
     pub fn path_mut(&mut self) -> &mut String {
         match self {
-            Self::Open(path) => path,
+            Self::Open(path) | Self::OpenBall(path) => path,
             Self::SaveScene(fields) => &mut fields.path,
             Self::Picture(fields) => &mut fields.path,
         }
@@ -52,7 +57,7 @@ impl Dialog {
     pub fn with_chosen(mut self, path: &std::path::Path) -> Self {
         *self.path_mut() = path.display().to_string();
         match &mut self {
-            Self::Open(_) => {}
+            Self::Open(_) | Self::OpenBall(_) => {}
             Self::SaveScene(fields) => fields.force = true,
             Self::Picture(fields) => fields.force = true,
         }
@@ -95,6 +100,7 @@ pub fn dialog_ui(ctx: &egui::Context, model: &mut Model<'_>, dialog: &mut Option
         ui.set_width(430.0);
         close = match open {
             Dialog::Open(path) => open_ui(ui, model, path),
+            Dialog::OpenBall(path) => open_ball_ui(ui, model, path),
             Dialog::SaveScene(fields) => save_ui(ui, model, fields),
             Dialog::Picture(fields) => picture_ui(ui, model, fields),
         };
@@ -119,13 +125,35 @@ fn path_ui(ui: &mut Ui, path: &mut String, label: &str) -> bool {
 
 fn open_ui(ui: &mut Ui, model: &mut Model<'_>, path: &mut String) -> bool {
     ui.heading("Open");
-    ui.label("An environment (latlong HDR, EXR, PNG or JPEG), a scene, or a picture that Sixfold saved. Dropping the file onto the window does the same.");
+    ui.label("An environment (latlong HDR, EXR, PNG or JPEG), a model (OBJ, glTF or GLB), a scene, or a picture that Sixfold saved. Dropping the file onto the window does the same.");
     if path_ui(ui, path, "file") {
         model.push(Command::Browse);
     }
     buttons_ui(ui, "Open", !path.trim().is_empty(), || {
         model.push(Command::Open(PathBuf::from(path.trim())));
     })
+}
+
+fn open_ball_ui(ui: &mut Ui, model: &mut Model<'_>, path: &mut String) -> bool {
+    ui.heading("Open a picture of a ball");
+    ui.label("A square picture (PNG, JPEG, HDR or EXR) that the ball fills: a matcap. Each point of the object takes the colour of the ball where it faces the same way.");
+    if path_ui(ui, path, "file") {
+        model.push(Command::Browse);
+    }
+    buttons_ui(ui, "Open", !path.trim().is_empty(), || {
+        let action = ball_from(&model.state.material, PathBuf::from(path.trim()));
+        model.push(action);
+    })
+}
+
+/// The material with another picture of a ball.
+pub fn ball_from(material: &Material, path: PathBuf) -> Action {
+    Action::SetMaterial(Box::new(Material {
+        surface: Surface::Ball,
+        view: View::Whole,
+        ball: BallPicture::File(path),
+        ..material.clone()
+    }))
 }
 
 fn save_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut SaveDialog) -> bool {

@@ -17,6 +17,7 @@ use super::frame::frame_of;
 use super::history::History;
 use super::job::Job;
 use super::model::{Message, Model, Surroundings};
+use super::object::{Jobs, ObjectData};
 use super::panes;
 use super::picture;
 use super::state::AppState;
@@ -24,9 +25,6 @@ use super::texel_color::{TexelColor, TexelKey};
 use super::views::{ViewKey, Views};
 use super::{bars, controls, inspector, keys, story};
 use crate::gpu::{Gpu, Renderer};
-use crate::scene::{Object, Target};
-
-use super::objects::target_of;
 
 use jobs::{Errand, Ready};
 
@@ -41,7 +39,7 @@ pub struct Explorer {
     renderer: Renderer,
     views: Views,
     tree: egui_tiles::Tree<Pane>,
-    target: (Object, Arc<Target>),
+    object: ObjectData,
     surroundings: Option<Surroundings>,
     loading: Option<Job<Result<Ready, String>>>,
     opening: Option<Job<Result<Opened, String>>>,
@@ -74,7 +72,7 @@ impl Explorer {
             renderer: Renderer::new(gpu.clone()),
             views: Views::new(&gpu, painter),
             tree: panes::tree_of(&state),
-            target: (state.object, target_of(state.object)),
+            object: ObjectData::new(&state),
             history: History::default(),
             surroundings: None,
             loading: None,
@@ -130,7 +128,11 @@ impl Explorer {
 
     /// True while a job runs or a map waits to be drawn.
     pub fn is_busy(&self) -> bool {
-        self.pending || self.loading.is_some() || self.opening.is_some() || !self.errands.is_empty()
+        self.pending
+            || self.object.is_busy()
+            || self.loading.is_some()
+            || self.opening.is_some()
+            || !self.errands.is_empty()
     }
 
     /// Shows surroundings that are there already, without a job; `complete` asks for every map at once from now on.
@@ -159,7 +161,7 @@ impl Explorer {
             }
             self.run(ctx, Command::Open(file.path().to_owned()));
         }
-        for command in keys::commands(ctx, &self.state, &self.target.1, &mut self.dialog) {
+        for command in keys::commands(ctx, &self.state, self.object.target(), &mut self.dialog) {
             self.run(ctx, command);
         }
         self.poll_jobs(ctx);
@@ -194,7 +196,7 @@ impl Explorer {
         for command in commands {
             self.run(&ctx, command);
         }
-        self.draw_views(&laid_out);
+        self.draw_views(&ctx, &laid_out);
         // What was just changed is seen in the next frame; a still window asks for none.
         let draws_on = self.pending && !self.waits;
         if (any && before != self.state) || draws_on || self.texel_color.is_waiting() {
@@ -213,7 +215,8 @@ impl Explorer {
             picture::What::Panel(mapping) => super::map_panel::map_panel_ui(ui, model, mapping),
             picture::What::Window => {}
         });
-        self.draw_views(&laid_out);
+        let ctx = ui.ctx().clone();
+        self.draw_views(&ctx, &laid_out);
     }
 
     /// Runs `show` on a model of what there is; gives back what was asked for and what was laid out.
@@ -226,9 +229,9 @@ impl Explorer {
         let mut model = Model {
             state: &self.state,
             history: &self.history,
-            target: &self.target.1,
+            target: self.object.target(),
             surroundings: self.surroundings.as_ref(),
-            story: story::steps_if_open(&self.state, &self.target.1),
+            story: story::steps_if_open(&self.state, self.object.target()),
             texel_color: self.probed,
             plan: &self.plan,
             frames: self.frames,
@@ -245,11 +248,26 @@ impl Explorer {
     }
 
     /// Brings the textures of the views that are seen up to date, and nothing else.
-    fn draw_views(&mut self, laid_out: &[(ViewKey, [u32; 2])]) {
+    fn draw_views(&mut self, ctx: &Context, laid_out: &[(ViewKey, [u32; 2])]) {
         if self.gpu.is_lost() {
             return;
         }
-        let frame = frame_of(&self.state, laid_out, self.complete);
+        let viewport = laid_out.iter().find(|(key, _)| *key == ViewKey::Viewport);
+        let size_px = viewport.map(|(_, size_px)| *size_px);
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        let followed = if self.complete {
+            self.object.complete(&self.state, size_px)
+        } else {
+            self.object.follow(&self.state, size_px, &mut jobs)
+        };
+        if let Err(why) = followed {
+            self.fail(why);
+        }
+        let object = self.object.frames(&self.state, size_px);
+        let frame = frame_of(&self.state, object, laid_out, self.complete);
         match self.renderer.draw(&frame) {
             Ok(report) => {
                 self.pending = report.is_pending();
@@ -367,9 +385,6 @@ impl Explorer {
     }
 
     fn follow_state(&mut self) {
-        if self.target.0 != self.state.object {
-            self.target = (self.state.object, target_of(self.state.object));
-        }
         panes::follow(&mut self.tree, &self.state);
     }
 

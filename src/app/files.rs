@@ -15,6 +15,8 @@ pub enum Opened {
     Scene(Box<AppState>),
     /// Something to be loaded as surroundings.
     Environment(Environment),
+    /// A model.
+    Model(PathBuf),
 }
 
 /// Looks into a file: a scene as text or inside a PNG, else an environment. What the file holds decides, not its name.
@@ -41,6 +43,14 @@ pub fn open(path: &Path) -> Result<Opened, String> {
             _ => Ok(environment(path)),
         };
     }
+    // A glTF text is JSON like a scene, and an OBJ is any text: here the name decides.
+    let is_model = |e: &std::ffi::OsStr| {
+        let model = ["obj", "gltf", "glb"];
+        model.iter().any(|name| e.eq_ignore_ascii_case(name))
+    };
+    if path.extension().is_some_and(is_model) || start.starts_with(b"glTF") {
+        return Ok(Opened::Model(absolute(path)));
+    }
     let is_json = start.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{');
     let says_json = path
         .extension()
@@ -62,6 +72,10 @@ const SNIFFED_BYTES: u64 = 64;
 pub fn open_scene(path: &Path) -> Result<AppState, String> {
     match open(path)? {
         Opened::Scene(state) => Ok(*state),
+        Opened::Model(path) => Ok(AppState {
+            model: Some(path),
+            ..AppState::default()
+        }),
         Opened::Environment(environment) => Ok(AppState {
             environment,
             ..AppState::default()
@@ -70,9 +84,12 @@ pub fn open_scene(path: &Path) -> Result<AppState, String> {
 }
 
 fn environment(path: &Path) -> Opened {
-    // A path of its own: a scene that is opened from elsewhere must find the file again.
-    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    Opened::Environment(Environment::File(path))
+    Opened::Environment(Environment::File(absolute(path)))
+}
+
+/// A path of its own: a scene that is opened from elsewhere must find the file again.
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
 fn read_text(path: &Path) -> Result<String, String> {
@@ -99,9 +116,14 @@ pub fn ask(dialog: &Dialog) -> Option<PathBuf> {
     match dialog {
         Dialog::Open(_) => files
             .add_filter(
-                "environments and scenes",
-                &["hdr", "exr", "png", "jpg", "jpeg", "json"],
+                "environments, models and scenes",
+                &[
+                    "hdr", "exr", "png", "jpg", "jpeg", "obj", "gltf", "glb", "json",
+                ],
             )
+            .pick_file(),
+        Dialog::OpenBall(_) => files
+            .add_filter("pictures", &["png", "jpg", "jpeg", "hdr", "exr"])
             .pick_file(),
         Dialog::SaveScene(_) => files.set_file_name(SaveDialog::default().path).save_file(),
         Dialog::Picture(_) => files

@@ -1,6 +1,7 @@
 //! From the state to what the renderer is asked for.
 
 use super::map_panel::window_of;
+use super::object::ObjectFrames;
 use super::panel_view::rect_of_size;
 use super::state::AppState;
 use super::theme::PICTURE_BACKGROUND;
@@ -9,7 +10,12 @@ use crate::gpu::{Frame, Overlays, PanelFrame, ViewportFrame};
 
 /// The frame that shows `state` in the views that were laid out, with their sizes in pixels. A view that was not laid out
 /// is not asked for, so that the renderer drops what only it needs.
-pub fn frame_of(state: &AppState, laid_out: &[(ViewKey, [u32; 2])], complete: bool) -> Frame {
+pub fn frame_of(
+    state: &AppState,
+    object: ObjectFrames,
+    laid_out: &[(ViewKey, [u32; 2])],
+    complete: bool,
+) -> Frame {
     let overlays = Overlays {
         great_circles: state.overlays.great_circles,
         face_tint: state.overlays.face_tint,
@@ -30,7 +36,9 @@ pub fn frame_of(state: &AppState, laid_out: &[(ViewKey, [u32; 2])], complete: bo
                 frame.viewport = Some(ViewportFrame {
                     size_px,
                     camera: state.camera,
-                    object: state.object,
+                    body: object.body.clone(),
+                    object: object.left.clone(),
+                    right_object: object.right.clone(),
                     left: state.mapping,
                     right: state.compare,
                     divider: state.divider,

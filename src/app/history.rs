@@ -31,7 +31,7 @@ impl Entry {
         if self.is_whole {
             return self.state;
         }
-        let same_object = self.state.object == now.object;
+        let same_object = self.state.object == now.object && self.state.model == now.model;
         AppState {
             probe: now.probe,
             probe_follows: now.probe_follows,

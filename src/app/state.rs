@@ -1,5 +1,6 @@
 //! What the window shows, as plain data: saved scenes, undo and exports are copies of it.
 
+use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
@@ -34,6 +35,8 @@ pub struct AppState {
     pub divider: f32,
     /// The object.
     pub object: Object,
+    /// A model from a file in place of the object.
+    pub model: Option<PathBuf>,
     /// Fineness of the object's triangles, in [`DENSITY_RANGE`]; what `density` 1 is made of tells
     /// [`Object::mesh_at`].
     pub density: u32,
@@ -295,6 +298,7 @@ impl Default for AppState {
             compare: None,
             divider: 0.5,
             object: Object::Teapot,
+            model: None,
             density: DENSITY_RANGE.1,
             material: Material::default(),
             compare_material: None,
@@ -402,6 +406,16 @@ impl AppState {
     pub fn panel(&self, mapping: MappingId) -> PanelState {
         let found = self.panels.iter().find(|p| p.mapping == mapping);
         found.copied().unwrap_or(PanelState::new(mapping, false))
+    }
+
+    /// The materials left and right of the divider.
+    pub fn materials(&self) -> impl Iterator<Item = &Material> {
+        std::iter::once(&self.material).chain(&self.compare_material)
+    }
+
+    /// True when there is a divider.
+    pub fn is_divided(&self) -> bool {
+        self.compare.is_some() || self.compare_material.is_some()
     }
 
     /// True when a pane is shown.

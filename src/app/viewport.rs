@@ -12,6 +12,7 @@ use super::story::{self, Arrow};
 use super::theme;
 use super::views::ViewKey;
 use crate::gpu::GREAT_CIRCLE_COLORS;
+use crate::mapping::MappingId;
 use crate::mapping::cube_face::GREAT_CIRCLES;
 use crate::math;
 use crate::optics;
@@ -96,9 +97,10 @@ fn reflect(incident: Vec3, normal: Vec3) -> Vec3 {
 
 /// The divider between the two mappings; true while the pointer is on it.
 fn divider_ui(ui: &mut Ui, model: &mut Model<'_>, rect: Rect) -> bool {
-    let Some(compare) = model.state.compare else {
+    if !model.state.is_divided() {
         return false;
-    };
+    }
+    let compare = model.state.compare.unwrap_or(model.state.mapping);
     let x = rect.min.x + model.state.divider * rect.width();
     let grip = Rect::from_min_max(
         pos2(x - DIVIDER_GRIP, rect.min.y),
@@ -122,9 +124,7 @@ fn divider_ui(ui: &mut Ui, model: &mut Model<'_>, rect: Rect) -> bool {
         (compare, Align2::LEFT_TOP, 1.0),
     ];
     for (mapping, anchor, side) in sides.into_iter().filter(|_| model.state.overlays.names) {
-        let [w, h] = model.map_size(mapping);
-        let charts = mapping.info().chart_count();
-        let text = format!("{}  {charts} × {w}×{h}", mapping.info().name);
+        let text = side_name(model, mapping, side > 0.0);
         edged_text(
             &painter,
             pos2(x + 8.0 * side, rect.min.y + 6.0),
@@ -134,6 +134,23 @@ fn divider_ui(ui: &mut Ui, model: &mut Model<'_>, rect: Rect) -> bool {
         );
     }
     response.hovered() || response.dragged()
+}
+
+/// What is seen on one side of the divider: what differs between the two.
+fn side_name(model: &Model<'_>, mapping: MappingId, is_right: bool) -> String {
+    let state = model.state;
+    let [w, h] = model.map_size(mapping);
+    let charts = mapping.info().chart_count();
+    let map = format!("{}  {charts} × {w}×{h}", mapping.info().name);
+    let Some(right) = &state.compare_material else {
+        return map;
+    };
+    let material = if is_right { right } else { &state.material };
+    if state.compare.is_some() {
+        format!("{}\n{map}", material.title())
+    } else {
+        material.title()
+    }
 }
 
 /// Axes, vectors and the legend of the circles.

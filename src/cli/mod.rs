@@ -5,10 +5,12 @@
 
 mod csv;
 mod eval;
+mod figure;
 mod maps;
 mod plan;
 mod render;
 
+pub use figure::FigureOptions;
 pub use render::{Picture, RenderOptions};
 
 use std::ffi::OsString;
@@ -37,6 +39,8 @@ pub enum Request {
     },
     /// Draw one picture into a file.
     Render(Box<RenderOptions>),
+    /// Draw figures into files.
+    Figure(FigureOptions),
 }
 
 /// Explore environment mappings: one direction, followed through every map at once
@@ -59,6 +63,8 @@ enum Command {
     Eval(plan::EvalOptions),
     /// Draw one picture without opening a window
     Render(Box<RenderOptions>),
+    /// Draw the figures of the source articles anew
+    Figure(FigureOptions),
 }
 
 /// Why a command ended early. Each message is one line.
@@ -87,6 +93,17 @@ pub fn complain(message: impl std::fmt::Display) {
     let _ = writeln!(io::stderr(), "sixfold: {message}");
 }
 
+/// Prints data to standard output; a reader that has gone away has what it wanted.
+///
+/// # Errors
+/// When standard output cannot be written.
+pub fn print(text: &str) -> io::Result<()> {
+    match io::stdout().lock().write_all(text.as_bytes()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        result => result,
+    }
+}
+
 fn obey(cli: Cli) -> Request {
     match cli.command {
         Some(Command::Maps(options)) => finish(|out| maps::run(&options, out)),
@@ -94,6 +111,7 @@ fn obey(cli: Cli) -> Request {
             finish(|out| eval::run(&options, io::stdin().lock(), out, io::stderr().lock()))
         }
         Some(Command::Render(options)) => Request::Render(options),
+        Some(Command::Figure(options)) => Request::Figure(options),
         None => match cli.scene {
             Some(path) if !path.is_file() => {
                 complain(format_args!(

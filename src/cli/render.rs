@@ -5,6 +5,8 @@ use std::str::FromStr;
 
 use crate::imaging::png_out::MAX_SIDE;
 use crate::mapping::{MappingId, UnknownMapping};
+use crate::optics::Material;
+use crate::optics::presets::PRESETS;
 use crate::scene::Object;
 
 /// Options of `sixfold render`. What is `None` stays as the scene has it.
@@ -40,6 +42,9 @@ pub struct RenderOptions {
     /// The object that mirrors it: sphere, torus, rounded-cube, teapot
     #[arg(long, value_name = "NAME", value_parser = object)]
     pub object: Option<Object>,
+    /// What the object is made of, by a preset's name
+    #[arg(long, value_name = "NAME", value_parser = material)]
+    pub material: Option<Material>,
     /// Leave out what is drawn over the picture: axes, great circles, vectors, marks
     #[arg(long = "no-overlays", action = clap::ArgAction::SetFalse)]
     pub overlays: bool,
@@ -93,7 +98,7 @@ fn png_path(text: &str) -> Result<PathBuf, String> {
         .ok_or_else(|| "pictures are written as PNG: the name must end in .png".to_owned())
 }
 
-fn size_px(text: &str) -> Result<[u32; 2], String> {
+pub(super) fn size_px(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| {
         let side = text.parse().ok()?;
         (1..=MAX_SIDE).contains(&side).then_some(side)
@@ -101,6 +106,15 @@ fn size_px(text: &str) -> Result<[u32; 2], String> {
     let size = text.split_once(['x', 'X']);
     size.and_then(|(width, height)| Some([side(width)?, side(height)?]))
         .ok_or_else(|| format!("must be WIDTHxHEIGHT, like 1280x800, 1 to {MAX_SIDE} each"))
+}
+
+fn material(text: &str) -> Result<Material, String> {
+    let id = |name: &str| name.replace(' ', "-");
+    let found = PRESETS.iter().find(|(name, _)| id(name) == text);
+    found.map(|(_, make)| make()).ok_or_else(|| {
+        let names: Vec<String> = PRESETS.iter().map(|(name, _)| id(name)).collect();
+        format!("the materials are {}", names.join(", "))
+    })
 }
 
 fn object(text: &str) -> Result<Object, String> {

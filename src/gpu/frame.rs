@@ -3,9 +3,14 @@
 use glam::Vec3;
 
 use super::overlay::Overlays;
+use super::program::{Paths, Program};
+use super::shared::Shared;
 use super::tone::ToneCurve;
+use crate::imaging::ball::BallPixels;
 use crate::mapping::MappingId;
-use crate::scene::{Camera, Object};
+use crate::optics::Material;
+use crate::scene::trace::Traced;
+use crate::scene::{Camera, Target};
 
 /// Exposures are clamped to this many stops up and down: the span of a half float.
 pub const MAX_EXPOSURE_EV: f32 = 24.0;
@@ -44,15 +49,39 @@ impl Default for Frame {
     }
 }
 
-/// The mirror object before its environment.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What the object is made of, and what must be there to show it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ObjectFrame {
+    /// Of what.
+    pub material: Material,
+    /// The picture of a sphere-map style; black while there is none.
+    pub ball: Option<Shared<BallPixels>>,
+    /// The paths through both surfaces in this very view; while they are missing one surface is shown.
+    pub traced: Option<Shared<Traced>>,
+}
+
+/// A body that can be drawn and hit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Its mesh, prepared for rays.
+    pub target: Shared<Target>,
+    /// It stands for the unit ball: paths through it are known in closed form.
+    pub is_ball: bool,
+}
+
+/// The object before its environment.
+#[derive(Clone, Debug, PartialEq)]
 pub struct ViewportFrame {
     /// Width and height in pixels; nothing is drawn while one is 0.
     pub size_px: [u32; 2],
     /// From where it is seen.
     pub camera: Camera,
     /// What mirrors the environment.
-    pub object: Object,
+    pub body: Body,
+    /// Of what it is made.
+    pub object: ObjectFrame,
+    /// Of what it is made right of the divider, if of something else.
+    pub right_object: Option<ObjectFrame>,
     /// The mapping that is looked up, or the one on the left.
     pub left: MappingId,
     /// The mapping on the right of the divider.
@@ -78,16 +107,53 @@ impl ViewportFrame {
         } else {
             0.5
         };
+        let clean = |object: ObjectFrame| ObjectFrame {
+            material: object.material.sanitized(),
+            ..object
+        };
+        let right_object = self.right_object.clone().map(clean);
+        let is_divided = right.is_some() || right_object.is_some();
         Self {
             camera: self.camera.sanitized(),
+            object: clean(self.object.clone()),
+            right_object,
             right,
-            divider: if right.is_some() { divider } else { 1.0 },
+            divider: if is_divided { divider } else { 1.0 },
             probe: probe
                 .filter(|_| self.show_probe)
                 .map_or([0.0; 3], |p| p.to_array()),
             show_probe: self.show_probe && probe.is_some(),
             ..self
         }
+    }
+
+    /// What is seen left of the divider, then right of it: mapping, object, and the program that shows it.
+    pub(super) fn sides(&self) -> Vec<Side<'_>> {
+        let side = |mapping, object| Side {
+            mapping,
+            object,
+            program: self.program(object),
+        };
+        let left = side(self.left, &self.object);
+        let is_divided = self.right.is_some() || self.right_object.is_some();
+        let right = is_divided.then(|| {
+            let object = self.right_object.as_ref().unwrap_or(&self.object);
+            side(self.right.unwrap_or(self.left), object)
+        });
+        std::iter::once(left).chain(right).collect()
+    }
+
+    fn program(&self, object: &ObjectFrame) -> Program {
+        let is_traced = object
+            .traced
+            .as_ref()
+            .is_some_and(|traced| traced.size == self.size_px);
+        let paths = match (self.body.is_ball, is_traced) {
+            (true, _) => Paths::Ball,
+            (false, true) => Paths::Traced,
+            (false, false) => Paths::None,
+        };
+        Program::new(&object.material, paths)
     }
 
     /// The mappings that are looked up, left first.
@@ -98,11 +164,19 @@ impl ViewportFrame {
     /// The pixel column at which the right mapping begins.
     pub(super) fn divider_px(&self) -> u32 {
         let width = self.size_px[0];
-        if self.right.is_none() {
+        if self.right.is_none() && self.right_object.is_none() {
             return width;
         }
         ((self.divider * width as f32).round() as u32).min(width)
     }
+}
+
+/// One side of the divider.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Side<'a> {
+    pub mapping: MappingId,
+    pub object: &'a ObjectFrame,
+    pub program: Program,
 }
 
 /// One mapping's charts, unfolded.
@@ -155,7 +229,7 @@ impl Frame {
                 panels.push(panel.normalized());
             }
         }
-        let viewport = self.viewport.filter(|v| visible(v.size_px));
+        let viewport = self.viewport.clone().filter(|v| visible(v.size_px));
         Self {
             viewport: viewport.map(ViewportFrame::normalized),
             panels,

@@ -1,21 +1,32 @@
 //! What every pass of the renderer needs: layouts, samplers, and short ways to make things.
 
+use super::program::Program;
 use super::{Gpu, Overlays, overlay, shader, tone};
 use crate::mapping::{Coverage, MappingId};
+use crate::optics::material::MOST_BOUNCES;
 
 /// What the screen gets: sRGB values in a format that does not convert them again.
 pub const VIEW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// Light, linear: half floats can be filtered and drawn to on every adapter.
 pub const LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
-/// The viewport's pass on one mapping.
+/// What object and sky share in the viewport's passes.
 const VIEWPORT: &str = concat!(
-    include_str!("../../shaders/screen.wgsl"),
     include_str!("../../shaders/footprint.wgsl"),
     include_str!("../../shaders/color.wgsl"),
     include_str!("../../shaders/lookup.wgsl"),
     include_str!("../../shaders/overlay.wgsl"),
     include_str!("../../shaders/viewport.wgsl"),
+);
+/// The sky's pass, after [`VIEWPORT`].
+const SKY: &str = concat!(
+    include_str!("../../shaders/screen.wgsl"),
+    include_str!("../../shaders/sky.wgsl"),
+);
+/// What every program of the object has, after [`VIEWPORT`].
+const OBJECT: &str = concat!(
+    include_str!("../../shaders/optics.wgsl"),
+    include_str!("../../shaders/object/material.wgsl"),
 );
 /// A panel's pass on one mapping.
 const PANEL: &str = concat!(
@@ -73,9 +84,28 @@ impl Variant {
     }
 }
 
-/// The whole text of the viewport's pass on a mapping.
+/// The whole text of the sky's pass on a mapping.
 #[must_use]
-pub fn viewport_source(id: MappingId, variant: Variant) -> String {
+pub fn sky_source(id: MappingId, variant: Variant) -> String {
+    viewport_source(id, variant, SKY)
+}
+
+/// The whole text of the object's pass on a mapping.
+#[must_use]
+pub fn object_source(id: MappingId, variant: Variant, program: Program) -> String {
+    let [r, g, b] = MARK_COLORS[0];
+    let mut text = format!("const TOTAL_REFLECTION_COLOR = vec3f({r}, {g}, {b});\n");
+    let [r, g, b] = MARK_COLORS[1];
+    text += &format!("const FAULT_COLOR = vec3f({r}, {g}, {b});\n");
+    text += &format!("const MOST_BOUNCES: u32 = {MOST_BOUNCES}u;\n");
+    text += &super::optics::wgsl_constants();
+    viewport_source(id, variant, &(text + OBJECT + &program.source()))
+}
+
+/// Marks of total internal reflection and of what a fault makes, display values: Okabe and Ito's reddish purple and vermilion.
+pub const MARK_COLORS: [[f32; 3]; 2] = [[0.8, 0.475, 0.655], [0.835, 0.369, 0.0]];
+
+fn viewport_source(id: MappingId, variant: Variant, pass: &str) -> String {
     let switches = [
         ("SHOW_GREAT_CIRCLES", variant.great_circles),
         ("SHOW_FACE_TINT", variant.face_tint),
@@ -84,7 +114,7 @@ pub fn viewport_source(id: MappingId, variant: Variant) -> String {
         ("NEEDS_LEVEL", variant.level),
     ];
     let switches = switches.map(|(name, on)| format!("const {name} = {on};\n"));
-    show_source(id, &(switches.concat() + VIEWPORT))
+    show_source(id, &(switches.concat() + VIEWPORT + pass))
 }
 
 /// The whole text of a panel's pass on a mapping.
@@ -110,6 +140,8 @@ pub(super) struct Kit {
     pub lookup: wgpu::BindGroupLayout,
     /// A block at a moving offset, the environment, a sampler.
     pub bake: wgpu::BindGroupLayout,
+    /// A material's block, a picture of a ball, traced paths.
+    pub material: wgpu::BindGroupLayout,
     /// A picture.
     pub halve: wgpu::BindGroupLayout,
     /// Linear in all respects; never beyond the border.
@@ -148,6 +180,22 @@ impl Kit {
                 "bake",
                 &[block_entry(true), texture_entry(1, plain), sampler_entry()],
             ),
+            material: layout(
+                "material",
+                &[
+                    block_entry(false),
+                    texture_entry(1, plain),
+                    wgpu::BindGroupLayoutEntry {
+                        // Full floats, which not every adapter can filter; they are loaded.
+                        ty: wgpu::BindingType::Texture {
+                            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                            view_dimension: array,
+                            multisampled: false,
+                        },
+                        ..texture_entry(2, array)
+                    },
+                ],
+            ),
             halve: layout("halve", &[texture_entry(0, plain)]),
             map_sampler: sampler("map", wgpu::AddressMode::ClampToEdge),
             environment_sampler: sampler("environment", wgpu::AddressMode::Repeat),
@@ -168,7 +216,7 @@ impl Kit {
             .device
             .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(fragment),
-                layout: Some(&self.pipeline_layout(layout)),
+                layout: Some(&self.pipeline_layout(&[layout])),
                 vertex: wgpu::VertexState {
                     module: &module,
                     entry_point: Some("screen_vertex"),
@@ -198,12 +246,13 @@ impl Kit {
             })
     }
 
-    pub fn pipeline_layout(&self, layout: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+    pub fn pipeline_layout(&self, layouts: &[&wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
+        let layouts: Vec<_> = layouts.iter().copied().map(Some).collect();
         self.gpu
             .device
             .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: None,
-                bind_group_layouts: &[Some(layout)],
+                bind_group_layouts: &layouts,
                 immediate_size: 0,
             })
     }

@@ -103,7 +103,7 @@ impl Plan {
         };
         plan.maps(drawn, frame, environment);
         let look = frame.look();
-        if let Some(viewport) = frame.viewport {
+        if let Some(viewport) = frame.viewport.clone() {
             plan.viewport(drawn, viewport, samples, look);
         }
         for panel in &frame.panels {

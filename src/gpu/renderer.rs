@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use super::environment::{EnvironmentSource, EnvironmentTexture};
-use super::frame::{Frame, PanelFrame, ViewportFrame};
+use super::frame::{Frame, PanelFrame, Side, ViewportFrame};
 use super::kit::{Kit, texture_bytes};
 use super::map::{GUTTER, MAP_LEVELS, Map, map_size};
 use super::panel::Panel;
 use super::plan::{Drawn, Node, Plan};
+use super::program::Work;
 use super::readback::{
     MapPixels, Part, RgbaPixels, TexelRead, light_from_bytes, read_part, read_view,
 };
@@ -149,6 +150,11 @@ impl Renderer {
             }
         }
         self.drawn = plan.drawn;
+        self.report.object = frame.viewport.as_ref().map_or_else(Vec::new, |viewport| {
+            let sides = viewport.sides().into_iter();
+            let work = |side: Side<'_>| Work::new(side.program, &side.object.material);
+            sides.map(work).collect()
+        });
         self.report.enter(plan.run, plan.skipped, plan.pending);
         self.count();
         Ok(&self.report)

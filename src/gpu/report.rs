@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::plan::Node;
+use super::program::Work;
 
 /// What the last [`draw`](super::Renderer::draw) did, and what there is now.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -13,6 +14,8 @@ pub struct Report {
     pub skipped: Vec<Node>,
     /// Seen, but left for the next call: draw again soon.
     pub pending: Vec<Node>,
+    /// What a pixel of the object costs, left and right of the divider; empty while no object is seen.
+    pub object: Vec<Work>,
     /// Sums over all calls.
     pub totals: Totals,
     /// Pipelines alive.
@@ -71,6 +74,9 @@ impl fmt::Display for Report {
             write!(f, "{}{node}", if i > 0 { ", " } else { "" })?;
         }
         write!(f, "; kept {}", self.skipped.len())?;
+        for (i, work) in self.object.iter().enumerate() {
+            write!(f, "{}{work}", if i > 0 { " | " } else { "; object: " })?;
+        }
         if self.is_pending() {
             write!(f, "; {} waiting", self.pending.len())?;
         }

@@ -16,6 +16,8 @@ pub const NO_CHART: u32 = u32::MAX;
 pub const MATH: &str = include_str!("../../shaders/math.wgsl");
 /// The six faces: twin of `mapping::cube_face`.
 pub const CUBE_FACE: &str = include_str!("../../shaders/cube_face.wgsl");
+/// The path through a ball: twin of `optics::ball`. Stands behind `shaders/optics.wgsl`.
+pub const BALL: &str = include_str!("../../shaders/ball.wgsl");
 
 /// A pass without mappings: constants, shared files, `body`.
 pub fn plain(body: &str) -> String {

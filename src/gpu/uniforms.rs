@@ -31,6 +31,31 @@ pub struct View {
     pub probe: [f32; 4],
 }
 
+/// Most wavelengths in [`Material`].
+pub const MOST_WAVELENGTHS: usize = 64;
+
+/// Twin of `Material` in `shaders/object/material.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Material {
+    /// n1/n2, opacity, above 0 when the opacity is 1 - cos, factor on differences.
+    pub interface_: [f32; 4],
+    /// Exponent, bias, scale, power.
+    pub shape: [f32; 4],
+    /// Real part of the metal's index for red, green and blue.
+    pub metal_n: [f32; 4],
+    /// Its imaginary part.
+    pub metal_k: [f32; 4],
+    /// Wavelengths, inner reflections, layers of traced paths.
+    pub counts: [f32; 4],
+    /// To the right on the screen, unit, in the world.
+    pub screen_right: [f32; 4],
+    /// Up on the screen.
+    pub screen_up: [f32; 4],
+    /// Weights on red, green and blue; n1/n2.
+    pub wavelengths: [[f32; 4]; MOST_WAVELENGTHS],
+}
+
 /// Twin of `Panel` in `shaders/panel.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
@@ -63,6 +88,7 @@ pub fn blocks() -> Vec<(&'static str, usize, Members)> {
     vec![
         block!(Bake: chart, environment),
         block!(View: clip_from_relative, eye, forward, right, up, probe),
+        block!(Material: interface_, shape, metal_n, metal_k, counts, screen_right, screen_up, wavelengths),
         block!(Panel: window, background, screen, overlays),
     ]
 }

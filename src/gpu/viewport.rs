@@ -1,14 +1,15 @@
-//! The viewport: the mirror object before its environment, both looked up in the shown mappings' own maps.
+//! The viewport: the object before its environment, both looked up in the shown mappings' own maps.
 
 use std::collections::BTreeMap;
 
-use super::frame::{Frame, Look, ViewportFrame};
-use super::kit::{Kit, VIEW_FORMAT, Variant, viewport_source};
+use super::frame::{Body, Frame, Look, Side, ViewportFrame};
+use super::kit::{Kit, VIEW_FORMAT, Variant, object_source, sky_source};
 use super::map::Map;
+use super::object::ObjectSide;
+use super::program::Program;
 use super::uniforms::{View, vec4};
 use super::workshop::Workshop;
 use crate::mapping::MappingId;
-use crate::scene::Object;
 
 /// Samples of a pixel, for a smooth silhouette; light is looked up once a pixel.
 const SAMPLES: u32 = 4;
@@ -27,6 +28,8 @@ pub(super) struct Viewport {
     targets: Targets,
     block: wgpu::Buffer,
     mesh: GpuMesh,
+    /// What each side of the divider needs beyond the map.
+    sides: Vec<ObjectSide>,
     pipelines: Workshop<Key>,
 }
 
@@ -44,13 +47,13 @@ type Key = (Part, MappingId, Variant, u32);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Part {
-    Object,
+    Object(Program),
     Sky,
 }
 
 #[derive(Debug)]
 struct GpuMesh {
-    object: Object,
+    body: Body,
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
     count: u32,
@@ -66,7 +69,8 @@ impl Viewport {
             targets,
             id,
             block: kit.block_buffer("view", size_of::<View>()),
-            mesh: GpuMesh::new(kit, frame.object),
+            mesh: GpuMesh::new(kit, &frame.body),
+            sides: Vec::new(),
             pipelines: Workshop::new(pipeline),
         }
     }
@@ -81,8 +85,16 @@ impl Viewport {
                 .create_view(&wgpu::TextureViewDescriptor::default());
             self.id = id;
         }
-        if self.mesh.object != frame.object {
-            self.mesh = GpuMesh::new(kit, frame.object);
+        if self.mesh.body != frame.body {
+            self.mesh = GpuMesh::new(kit, &frame.body);
+        }
+        let sides = frame.sides();
+        self.sides.truncate(sides.len());
+        for (i, side) in sides.iter().enumerate() {
+            match self.sides.get_mut(i) {
+                Some(held) => held.prepare(kit, side),
+                None => self.sides.push(ObjectSide::new(kit, side)),
+            }
         }
     }
 
@@ -121,6 +133,7 @@ impl Viewport {
         kit.gpu
             .queue
             .write_buffer(&self.block, 0, bytemuck::bytes_of(&block));
+        let seen = frame.sides();
         let keys = keys(frame, maps, self.targets.sample_count());
         self.pipelines
             .retain(|key| keys.iter().any(|pair| pair.contains(key)));
@@ -165,8 +178,13 @@ impl Viewport {
 
         let [width, height] = frame.size_px;
         let divider = frame.divider_px();
-        let sides = [(0, divider), (divider, width)];
-        for ([object, sky_key], (start, end)) in keys.into_iter().zip(sides) {
+        let parts = [(0, divider), (divider, width)];
+        let rays = frame.camera.ray_frame(width as f32 / height as f32);
+        let sides = self.sides.iter().zip(&seen);
+        for (([object, sky_key], (start, end)), (held, side)) in
+            keys.into_iter().zip(parts).zip(sides)
+        {
+            held.write(kit, side, rays);
             let pair = (self.pipelines.get(object), self.pipelines.get(sky_key));
             let ((Some(object), Some(sky)), Some(map)) = (pair, maps.get(&sky_key.1)) else {
                 continue;
@@ -177,6 +195,7 @@ impl Viewport {
             pass.set_scissor_rect(start, 0, end - start, height);
             pass.set_bind_group(0, &kit.lookup_group(&self.block, &map.view), &[]);
             // The object first: the sky is then not computed behind it.
+            pass.set_bind_group(1, held.group(), &[]);
             pass.set_pipeline(object);
             pass.draw_indexed(0..self.mesh.count, 0, 0..1);
             pass.set_pipeline(sky);
@@ -198,7 +217,8 @@ impl Viewport {
             samples,
             depth,
         } = &self.targets;
-        samples.iter().chain([texture, depth])
+        let sides = self.sides.iter().flat_map(ObjectSide::textures);
+        samples.iter().chain([texture, depth]).chain(sides)
     }
 
     /// Number of pipelines.
@@ -228,7 +248,11 @@ fn view_block(frame: &ViewportFrame, look: Look) -> View {
 /// they are left to complete frames; pictures beyond [`MOST_SAMPLED_PX`] do without.
 pub(super) fn samples(kit: &Kit, frame: &Frame) -> u32 {
     let on_processor = kit.gpu.adapter_info.device_type == wgpu::DeviceType::Cpu;
-    let [width, height] = frame.viewport.map_or([0, 0], |v| v.size_px).map(u64::from);
+    let [width, height] = frame
+        .viewport
+        .as_ref()
+        .map_or([0, 0], |v| v.size_px)
+        .map(u64::from);
     let is_large = width * height > MOST_SAMPLED_PX;
     if is_large || (on_processor && !frame.complete) {
         1
@@ -272,8 +296,8 @@ impl Targets {
 }
 
 impl GpuMesh {
-    fn new(kit: &Kit, object: Object) -> Self {
-        let mesh = object.mesh();
+    fn new(kit: &Kit, body: &Body) -> Self {
+        let mesh = body.target.mesh();
         let vertices: Vec<[f32; 6]> = mesh
             .positions
             .iter()
@@ -291,7 +315,7 @@ impl GpuMesh {
             buffer
         };
         Self {
-            object,
+            body: body.clone(),
             vertices: buffer(
                 "vertices",
                 wgpu::BufferUsages::VERTEX,
@@ -317,12 +341,16 @@ fn keys(frame: &ViewportFrame, maps: &BTreeMap<MappingId, Map>, samples: u32) ->
         probe: frame.show_probe,
         ..Variant::new(frame.overlays)
     };
-    let pair = |id: MappingId| {
+    let pair = |Side {
+                    mapping: id,
+                    program,
+                    ..
+                }: Side<'_>| {
         let finest_rad = maps.get(&id).map_or(0.0, |map| map.finest_rad);
         let level = widest_rad > finest_rad;
         [
             (
-                Part::Object,
+                Part::Object(program),
                 id,
                 Variant {
                     level: true,
@@ -333,21 +361,27 @@ fn keys(frame: &ViewportFrame, maps: &BTreeMap<MappingId, Map>, samples: u32) ->
             (Part::Sky, id, Variant { level, ..shown }, samples),
         ]
     };
-    frame.mappings().map(pair).collect()
+    frame.sides().into_iter().map(pair).collect()
 }
 
 fn pipeline(kit: &Kit, (part, id, variant, samples): Key) -> wgpu::RenderPipeline {
-    let module = kit.module("viewport", &viewport_source(id, variant));
-    let layout = kit.pipeline_layout(&kit.lookup);
+    let (source, layout) = match part {
+        Part::Object(program) => (
+            object_source(id, variant, program),
+            kit.pipeline_layout(&[&kit.lookup, &kit.material]),
+        ),
+        Part::Sky => (sky_source(id, variant), kit.pipeline_layout(&[&kit.lookup])),
+    };
+    let module = kit.module("viewport", &source);
     let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
     let vertex_layout = [Some(wgpu::VertexBufferLayout {
         array_stride: VERTEX_BYTES,
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &attributes,
     })];
-    let is_object = part == Part::Object;
+    let is_object = matches!(part, Part::Object(_));
     let (vertex, fragment, buffers, depth_compare) = match part {
-        Part::Object => (
+        Part::Object(_) => (
             "object_vertex",
             "object_fragment",
             &vertex_layout[..],

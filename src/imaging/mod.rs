@@ -3,11 +3,14 @@
 //! - [`Environment`]: what can be shown, and [`Environment::image`], which makes its picture;
 //! - [`load`]: a latlong picture from a file, refused before any allocation when it declares too much;
 //! - [`Image`]: RGB in linear light; [`sanitize`] makes every value finite and remembers what it replaced;
+//! - [`ball`]: pictures of a lit ball, for sphere-map styles;
 //! - [`computed`]: pictures that show where every direction went;
 //! - [`open_regular`]: a file, and nothing that would wait for ever;
 //! - [`png_out`] and [`atomic`]: pictures to files, whole or not at all.
 
 pub mod atomic;
+pub mod ball;
+pub(crate) mod caught;
 pub mod computed;
 mod environment;
 mod file;
@@ -20,6 +23,7 @@ pub mod srgb;
 
 pub use environment::{Environment, FACE_COLORS};
 pub use file::open_regular;
+pub(crate) use file::{ReadProblem, read_whole};
 pub use image::{Image, ImageSizeError};
 pub use load::{LoadError, LoadProblem, Loaded};
 pub use progress::{Progress, Stage};

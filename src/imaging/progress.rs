@@ -11,11 +11,11 @@ pub enum Stage {
     Waiting,
     /// Bytes come from the file.
     Reading,
-    /// Bytes become texels.
+    /// Bytes become texels or triangles.
     Decoding,
     /// Texels come from a formula.
     Computing,
-    /// Values that cannot be shown are counted and replaced.
+    /// What cannot be shown is counted and replaced.
     Checking,
     /// The result is ready.
     Done,

@@ -242,6 +242,8 @@ pub struct Material {
     pub magnification: f32,
 }
 
+/// Wavelength of the sodium line D in micrometres, at which indices are quoted as n_D (the mean of its two lines).
+pub const SODIUM_UM: f64 = 0.5893;
 /// Indices of refraction, n2/n1: eta from 3 to 0.3.
 pub const INDEX_RANGE: (f32, f32) = (0.334, 3.33);
 /// Numbers of wavelengths.
@@ -302,9 +304,55 @@ impl Material {
         self
     }
 
-    /// n1/n2 for a ray that comes from outside.
+    /// n1/n2 for a ray that comes from outside; of a glass with its own spectrum at the sodium line.
     #[must_use]
     pub fn eta(&self) -> f32 {
-        1.0 / self.index
+        if self.surface == Surface::Glass && self.dispersion == Dispersion::Spectral {
+            (1.0 / self.glass.index(SODIUM_UM)) as f32
+        } else {
+            1.0 / self.index
+        }
+    }
+
+    /// What it is in a few words, for a label beside a picture of it.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let formula = self.formula.name();
+        let refracts = matches!(self.surface, Surface::Dielectric | Surface::Glass);
+        match self.view {
+            View::Whole => match self.surface {
+                Surface::Mirror if self.printed_reflection => "mirror, the paper's sign".to_owned(),
+                Surface::Mirror if self.shading != Shading::PerPixel => {
+                    format!("mirror, {}", self.shading.name())
+                }
+                Surface::Metal => self.metal.name().to_owned(),
+                Surface::Veil if self.opacity_by_angle => "opacity 1 − cos".to_owned(),
+                Surface::Veil => format!("opacity {:.2}", self.opacity),
+                _ if refracts && self.surfaces == Surfaces::Both => {
+                    format!("{}, both surfaces", self.body_name())
+                }
+                _ if refracts => format!("{}, {formula}", self.body_name()),
+                surface => surface.name().to_owned(),
+            },
+            View::Reflectance => format!("reflectance: {formula}"),
+            View::Difference => format!("{formula} less {}", self.other_formula.name()),
+            view => view.name().to_owned(),
+        }
+    }
+
+    fn body_name(&self) -> String {
+        match (self.surface, self.dispersion) {
+            (Surface::Glass, Dispersion::Spectral) => self.glass.name().to_owned(),
+            (Surface::Glass, dispersion) => dispersion.name().to_owned(),
+            _ => format!("index {:.3}", self.index),
+        }
+    }
+
+    /// True when light is followed through the body's second surface.
+    #[must_use]
+    pub fn is_through(&self) -> bool {
+        let refracts = matches!(self.surface, Surface::Dielectric | Surface::Glass);
+        self.view == View::SurfaceDifference
+            || (self.view == View::Whole && refracts && self.surfaces == Surfaces::Both)
     }
 }

@@ -8,6 +8,7 @@ pub mod mesh;
 pub mod object;
 pub mod pick;
 mod teapot;
+pub mod trace;
 
 pub use camera::{Camera, Ray, RayFrame};
 pub use mesh::Mesh;

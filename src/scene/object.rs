@@ -30,6 +30,9 @@ pub const TORUS_MINOR: f64 = 0.34;
 /// Radius of the rounded cube's edges and corners.
 pub const CUBE_ROUNDING: f64 = 0.2;
 
+/// The density of [`Object::mesh`], to which the numbers of steps below belong.
+pub const FULL_DENSITY: u32 = 32;
+
 /// Quads in 45 degrees of the sphere. An edge then spans 90 / 64 degrees and its middle lies 1 - cos(0.7 degrees) =
 /// 7.5e-5 below the sphere: a tenth of a pixel on a disc of 2000 pixels across.
 const SPHERE_STEPS: u32 = 32;
@@ -53,21 +56,27 @@ impl Object {
         }
     }
 
-    /// The surface with coarser triangles: `density` 32 is [`mesh`](Self::mesh), 1 the coarsest.
-    #[must_use]
-    pub fn mesh_at(self, density: u32) -> Mesh {
-        let _ = density;
-        self.mesh()
-    }
-
-    /// Builds the surface: some ten thousand triangles, some milliseconds; build it once.
+    /// Builds the surface at [`FULL_DENSITY`]: some ten thousand triangles, some milliseconds; build it once.
     #[must_use]
     pub fn mesh(self) -> Mesh {
+        self.mesh_at(FULL_DENSITY)
+    }
+
+    /// The surface with coarser triangles, still a closed body of the same size: `density` from 1 to [`FULL_DENSITY`] (others are
+    /// clamped) is in proportion to the quads along a side.
+    #[must_use]
+    pub fn mesh_at(self, density: u32) -> Mesh {
+        let steps = |full: u32, least: u32| steps_at(density, full, least);
         match self {
-            Self::Sphere => rounded_cube(1.0, SPHERE_STEPS),
-            Self::Torus => torus(),
-            Self::RoundedCube => rounded_cube(CUBE_ROUNDING, CUBE_STEPS),
-            Self::Teapot => teapot::mesh(),
+            Self::Sphere => rounded_cube(1.0, steps(SPHERE_STEPS, 1)),
+            Self::Torus => {
+                let [around, across] = TORUS_STEPS;
+                // Fewer around would leave no hole, fewer across would cut far into the tube.
+                torus([steps(around, 6), steps(across, 4)])
+            }
+            Self::RoundedCube => rounded_cube(CUBE_ROUNDING, steps(CUBE_STEPS, 1)),
+            // With one step each half of the handle would be the same flat band.
+            Self::Teapot => teapot::mesh(steps(teapot::STEPS, 2)),
         }
     }
 }
@@ -76,6 +85,11 @@ impl fmt::Display for Object {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
+}
+
+/// Steps at a density, of `full` at the full one.
+fn steps_at(density: u32, full: u32, least: u32) -> u32 {
+    (full * density.clamp(1, FULL_DENSITY) / FULL_DENSITY).max(least)
 }
 
 /// All points at `radius` from a cube whose corners lie at 1 - `radius` from the origin: a sphere for radius 1.
@@ -119,10 +133,9 @@ fn rounded_cube(radius: f64, steps: u32) -> Mesh {
     mesh
 }
 
-fn torus() -> Mesh {
+fn torus([around, across]: [u32; 2]) -> Mesh {
     // The last vertex of a turn is the first one again, in the same bits.
     let turn = |i: u32, n: u32| (TAU * f64::from(i % n) / f64::from(n)).sin_cos();
-    let [around, across] = TORUS_STEPS;
     let mut mesh = Mesh::default();
     mesh.add_grid(around, across, |i, j| {
         let (sin_ring, cos_ring) = turn(i, around);
@@ -168,6 +181,66 @@ mod tests {
                 .fold(0.0, f32::max);
             assert!(reach > 0.9999, "{object} fills only {reach} of the ball");
         }
+    }
+
+    /// Largest angle between the normals of a triangle and of its corners that the steps allow, in radians. A plane through
+    /// three corners is turned by no more than half the diagonal of its quad, measured in normals; on a face of the sphere,
+    /// whose quads are sheared towards the corners, by no more than one step.
+    fn largest_turn_rad(object: Object, density: u32) -> Option<f64> {
+        let steps = |full, least| f64::from(steps_at(density, full, least));
+        match object {
+            Object::Sphere => Some(FRAC_PI_4 / steps(SPHERE_STEPS, 1)),
+            Object::RoundedCube => Some(FRAC_PI_4 / steps(CUBE_STEPS, 1)),
+            Object::Torus => {
+                let [around, across] = TORUS_STEPS;
+                Some(0.5 * f64::hypot(TAU / steps(around, 6), TAU / steps(across, 4)))
+            }
+            // The rim and the lip turn by half a circle within a patch.
+            Object::Teapot => None,
+        }
+    }
+
+    #[test]
+    fn every_density_keeps_the_laws() {
+        for object in Object::ALL {
+            assert_eq!(object.mesh_at(FULL_DENSITY), object.mesh());
+            assert_eq!(object.mesh_at(0), object.mesh_at(1));
+            assert_eq!(object.mesh_at(u32::MAX), object.mesh());
+            let mut triangles = 0;
+            for density in [1, 2, 3, 7, 8, 13, 31, 32] {
+                let mesh = object.mesh_at(density);
+                let worst = f64::from(check(&mesh).unwrap());
+                if let Some(budget) = largest_turn_rad(object, density) {
+                    let turn = worst.acos();
+                    assert!(
+                        (0.25 * budget..1.0001 * budget).contains(&turn),
+                        "{object} {density}: {turn}, allowed {budget}"
+                    );
+                    assert_eq!(open_edges(&mesh).len(), 0, "{object} {density}");
+                }
+                assert!(mesh.indices.len() >= triangles, "{object} {density}");
+                triangles = mesh.indices.len();
+            }
+            // Control: half the density is beyond what the full one may do.
+            let half = f64::from(check(&object.mesh_at(16)).unwrap()).acos();
+            assert!(largest_turn_rad(object, 32).is_none_or(|budget| half > budget));
+        }
+    }
+
+    #[test]
+    fn the_coarse_teapot_is_the_same_body() {
+        // A surface of chords misses volume as the square of its steps: 0.41 / steps^2 at the finest two.
+        let volume_at = |density| f64::from(volume(&Object::Teapot.mesh_at(density)));
+        let steps = |density| f64::from(steps_at(density, teapot::STEPS, 2));
+        let full = volume_at(FULL_DENSITY) + 0.41 / steps(FULL_DENSITY).powi(2);
+        for density in [1, 2, 3, 7, 8, 13, 31, 32] {
+            let missing = (full - volume_at(density)) * steps(density).powi(2);
+            assert!((0.38..0.44).contains(&missing), "{density}: {missing}");
+            let open = open_edges(&Object::Teapot.mesh_at(density)).len();
+            assert_eq!(open as f64, 6.0 * steps(density), "{density}");
+        }
+        // Control: with the full mesh's steps the coarse one would miss far more.
+        assert!((full - volume_at(8)) * steps(16).powi(2) > 0.5);
     }
 
     #[test]

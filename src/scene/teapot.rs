@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::Mesh;
 
 /// Quads along each side of a patch: 3.75 degrees of a turn, 5e-4 of the radius below the surface.
-const STEPS: u32 = 24;
+pub(super) const STEPS: u32 = 24;
 
 /// A point of a profile: radius, height and the near-circle's arm as a part of the radius.
 type Turned = [f64; 3];
@@ -181,36 +181,35 @@ fn patches(lid_widening: f64) -> Vec<Patch> {
     all
 }
 
-/// Centre of the bounding box, and the factor that brings the farthest point to the unit sphere.
-fn fit(patches: &[Patch]) -> (DVec3, f64) {
-    let points: Vec<DVec3> = patches
-        .iter()
-        .flat_map(|patch| {
-            (0..=STEPS).flat_map(move |j| (0..=STEPS).map(move |i| patch.at(step(i), step(j)).0))
-        })
-        .collect();
-    let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+/// Centre of the bounding box, and the factor that brings the farthest point to the unit sphere. Those of the full mesh, so that
+/// a coarse one keeps its place; its own points count only where they lie between those of the full one and reach farther.
+fn fit(patches: &[Patch], steps: u32) -> (DVec3, f64) {
+    let points = |steps: u32| {
+        let grid = move || (0..=steps).flat_map(move |j| (0..=steps).map(move |i| (i, j)));
+        let place = move |n: u32| f64::from(n) / f64::from(steps);
+        patches
+            .iter()
+            .flat_map(move |patch| grid().map(move |(i, j)| patch.at(place(i), place(j)).0))
+    };
+    let low = points(STEPS).fold(DVec3::INFINITY, DVec3::min);
+    let high = points(STEPS).fold(DVec3::NEG_INFINITY, DVec3::max);
     let centre = 0.5 * (low + high);
-    let reach = points
-        .iter()
+    let reach = points(STEPS)
+        .chain(points(steps))
         .map(|p| p.distance(centre))
         .fold(0.0, f64::max);
     (centre, 1.0 / reach)
 }
 
-fn step(i: u32) -> f64 {
-    f64::from(i) / f64::from(STEPS)
-}
-
-/// The teapot, y up, spout to +x, lid, handle and all.
-pub(super) fn mesh() -> Mesh {
+/// The teapot, y up, spout to +x, lid, handle and all, with `steps` quads along each side of a patch.
+pub(super) fn mesh(steps: u32) -> Mesh {
     let patches = patches(LID_WIDENING);
-    let (centre, scale) = fit(&patches);
+    let (centre, scale) = fit(&patches, steps);
+    let step = |i: u32| f64::from(i) / f64::from(steps);
     let place = |p: DVec3| (scale * (p - centre)).as_vec3().to_array();
     let mut mesh = Mesh::default();
     for patch in &patches {
-        mesh.add_grid(STEPS, STEPS, |i, j| {
+        mesh.add_grid(steps, steps, |i, j| {
             let (position, normal) = patch.at(step(i), step(j));
             (place(position), normal.as_vec3().to_array())
         });
@@ -223,7 +222,7 @@ pub(super) fn mesh() -> Mesh {
         up,
     );
     for patch in &patches[patches.len() - 2..] {
-        let border: Vec<u32> = (0..=STEPS)
+        let border: Vec<u32> = (0..=steps)
             .map(|i| mesh.add_vertex(place(patch.at(step(i), 1.0).0), up))
             .collect();
         for pair in border.windows(2) {
@@ -244,9 +243,9 @@ mod tests {
 
     /// The mesh's points back in Newell's units.
     fn points() -> Vec<DVec3> {
-        let (centre, scale) = fit(&patches(LID_WIDENING));
+        let (centre, scale) = fit(&patches(LID_WIDENING), STEPS);
         let back = |p| Vec3::from(p).as_dvec3() / scale + centre;
-        mesh().positions.into_iter().map(back).collect()
+        mesh(STEPS).positions.into_iter().map(back).collect()
     }
 
     #[test]
@@ -282,8 +281,8 @@ mod tests {
 
     #[test]
     fn open_only_inside_the_body() {
-        let (centre, scale) = fit(&patches(LID_WIDENING));
-        let open = open_edges(&mesh());
+        let (centre, scale) = fit(&patches(LID_WIDENING), STEPS);
+        let open = open_edges(&mesh(STEPS));
         // Both ends of the handle and the root of the spout, two half tubes each.
         assert_eq!(open.len(), 3 * 2 * STEPS as usize);
         let body: Vec<DVec3> = (0..2000)
@@ -332,8 +331,8 @@ mod tests {
             for k in 0..24 {
                 for j in 0..=STEPS {
                     let (here, there) = (
-                        patches[k].at(1.0, step(j)),
-                        patches[next(k)].at(0.0, step(j)),
+                        patches[k].at(1.0, f64::from(j) / f64::from(STEPS)),
+                        patches[next(k)].at(0.0, f64::from(j) / f64::from(STEPS)),
                     );
                     worst.0 = worst.0.max(here.0.distance(there.0));
                     worst.1 = worst.1.max(here.1.distance(there.1));

@@ -3,12 +3,12 @@
 #![allow(dead_code)] // each test file uses some
 
 use sixfold::gpu::{
-    EnvironmentSource, Frame, Gpu, Overlays, PanelFrame, Renderer, RgbaPixels, ToneCurve,
-    ViewportFrame,
+    Body, EnvironmentSource, Frame, Gpu, ObjectFrame, Overlays, PanelFrame, Renderer, RgbaPixels,
+    Shared, ToneCurve, ViewportFrame,
 };
 use sixfold::mapping::{ChartPoint, Coverage, MappingId};
 use sixfold::math::Vec3;
-use sixfold::scene::{Camera, Object};
+use sixfold::scene::{Camera, Object, Target};
 
 pub const BUDGET: u32 = 96 * 1024;
 
@@ -54,11 +54,25 @@ pub fn set(renderer: &mut Renderer, size: [u32; 2], light: impl Fn([f64; 3]) -> 
         .unwrap();
 }
 
+/// The unit ball's mesh.
+pub fn sphere() -> Body {
+    body(Object::Sphere)
+}
+
+pub fn body(object: Object) -> Body {
+    Body {
+        target: Shared::new(Target::new(object.mesh())),
+        is_ball: object == Object::Sphere,
+    }
+}
+
 pub fn viewport(left: MappingId) -> ViewportFrame {
     ViewportFrame {
         size_px: [96, 80],
         camera: Camera::default(),
-        object: Object::Sphere,
+        body: sphere(),
+        object: ObjectFrame::default(),
+        right_object: None,
         left,
         right: None,
         divider: 0.5,

@@ -7,16 +7,18 @@ use egui::Context;
 
 use super::Explorer;
 use crate::app::action::Action;
-use crate::app::dialogs::Dialog;
+use crate::app::dialogs::{Dialog, ball_from};
 use crate::app::files::{self, Opened};
 use crate::app::job::{Job, Outcome};
 use crate::app::model::{JobLine, Surroundings};
+use crate::app::object::{BodyKey, Jobs, News, job_line};
 use crate::app::panes;
 use crate::app::picture::{self, Destination, PictureRequest};
 use crate::app::state::AppState;
 use crate::gpu::{EnvironmentSource, EnvironmentTexture, Gpu};
 use crate::imaging::atomic::write_atomically;
-use crate::imaging::{Environment, Progress, Stage};
+use crate::imaging::{Environment, Progress};
+use crate::optics::material::BallPicture;
 
 /// Surroundings that are on the device already.
 pub(super) struct Ready {
@@ -58,23 +60,12 @@ pub(super) fn write_scene(scene: &AppState, path: &Path, force: bool) -> Result<
 impl Explorer {
     /// The jobs under way.
     pub fn jobs(&self) -> Vec<JobLine> {
-        fn line<T: Send + 'static>(job: &Job<T>) -> JobLine {
-            let stage = job.progress.stage();
-            let title = match stage {
-                Stage::Waiting | Stage::Done => job.title.clone(),
-                _ => format!("{}: {}", job.title, stage.name()),
-            };
-            JobLine {
-                id: job.id,
-                title,
-                fraction: job.progress.fraction(),
-            }
-        }
-        let loading = self.loading.iter().map(line);
-        let opening = self.opening.iter().map(line);
+        let loading = self.loading.iter().map(job_line);
+        let opening = self.opening.iter().map(job_line);
         loading
             .chain(opening)
-            .chain(self.errands.iter().map(line))
+            .chain(self.errands.iter().map(job_line))
+            .chain(self.object.jobs())
             .collect()
     }
 
@@ -196,6 +187,9 @@ impl Explorer {
         if self.loading.take_if(|job| job.id == id).is_some() {
             self.keep_shown();
         }
+        if self.object.cancel(id) {
+            self.keep_body();
+        }
         self.opening.take_if(|job| job.id == id);
         self.errands.retain(|job| job.id != id);
     }
@@ -205,6 +199,46 @@ impl Explorer {
         self.poll_opening(ctx);
         self.poll_errands(ctx);
         self.poll_asked(ctx);
+        for news in self.object.poll() {
+            match news {
+                News::Opened(path) => self.act(Action::SetModel(path)),
+                News::BodyFailed(why) => {
+                    self.fail(why);
+                    self.keep_body();
+                }
+                News::BallFailed(picture, why) => {
+                    self.fail(why);
+                    let materials = std::iter::once(&mut self.state.material)
+                        .chain(&mut self.state.compare_material);
+                    for material in materials.filter(|m| m.ball == picture) {
+                        material.ball = BallPicture::default();
+                    }
+                }
+                News::Note(note) => self.tell(note),
+            }
+        }
+    }
+
+    /// The state names the body that is shown.
+    fn keep_body(&mut self) {
+        match self.object.key() {
+            BodyKey::Model(path) => self.state.model = Some(path.clone()),
+            BodyKey::BuiltIn(object, density) => {
+                self.state.model = None;
+                (self.state.object, self.state.density) = (*object, *density);
+            }
+        }
+    }
+
+    /// Opens a model in a job; the state changes when it is there.
+    pub(super) fn open_model(&mut self, ctx: &Context, path: PathBuf) {
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        if let Err(why) = self.object.open_model(&mut jobs, path) {
+            self.fail(why);
+        }
     }
 
     fn poll_loading(&mut self) {
@@ -271,6 +305,7 @@ impl Explorer {
                 self.tree = panes::tree_of(&self.state);
             }
             Outcome::Done(Ok(Opened::Environment(environment))) => self.load(ctx, environment),
+            Outcome::Done(Ok(Opened::Model(path))) => self.open_model(ctx, path),
             Outcome::Done(Err(why)) => self.fail(why),
             Outcome::Failed => self.fail("reading the file ended without a result".to_owned()),
         }
@@ -301,6 +336,10 @@ impl Explorer {
             Outcome::Done(Some(path)) if matches!(dialog, Dialog::Open(_)) => {
                 self.dialog = None;
                 self.open(ctx, path);
+            }
+            Outcome::Done(Some(path)) if matches!(dialog, Dialog::OpenBall(_)) => {
+                self.dialog = None;
+                self.act(ball_from(&self.state.material, path));
             }
             Outcome::Done(Some(path)) => self.dialog = Some(dialog.with_chosen(&path)),
             // Declined, or there is no dialog of the system: what was typed stays.

@@ -90,7 +90,7 @@ fn read_meta(bytes: &[u8]) -> Result<MetaData, LoadProblem> {
 
 /// Runs code that may panic on bad files.
 fn caught<T>(run: impl FnOnce() -> Result<T, LoadProblem>) -> Result<T, LoadProblem> {
-    super::caught::caught(run)
+    crate::imaging::caught::caught(run)
         .unwrap_or_else(|| Err(damaged("the decoder stumbled over impossible values")))
 }
 

@@ -3,26 +3,28 @@
 //! The declared size is read from the header and judged before a decoder sees the file: failed allocations end the
 //! process and cannot be caught. Reading a header holds no more than the header's own bytes.
 
-mod caught;
 mod exr;
 mod hdr;
 mod header;
 mod jpeg;
 mod png;
 
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 use thiserror::Error;
 
 use super::sanitize::{BadTexels, Originals, sanitize};
-use super::{Image, Progress, Stage, open_regular};
+use super::{Image, Progress, ReadProblem, Stage, read_whole};
 
 /// Most texels in a row: twice the largest height.
 pub const MOST_WIDTH: u32 = 16384;
 
 /// Most rows. 16384 x 8192 texels take 1.5 GiB as f32 RGB.
 pub const MOST_HEIGHT: u32 = 8192;
+
+/// Most texels a side of a ball's picture: more than any viewport shows of it, and within every device's limits.
+pub const MOST_BALL: u32 = 4096;
 
 /// Longest file: the largest allowed picture as uncompressed 32-bit RGBA.
 pub const MOST_FILE_BYTES: u64 = MOST_WIDTH as u64 * MOST_HEIGHT as u64 * 16;
@@ -134,11 +136,29 @@ pub enum LoadProblem {
         /// Declared rows.
         height: u64,
     },
+    /// A ball's picture is larger than it can be shown.
+    #[error(
+        "the file declares {width} x {height}, a ball's picture has at most {MOST_BALL} a side; scale it down"
+    )]
+    BallTooLarge {
+        /// Declared texels in a row.
+        width: u64,
+        /// Declared rows.
+        height: u64,
+    },
     /// Not twice as wide as high.
     #[error(
         "the picture is {width} x {height}, but a latlong is twice as wide as high; convert it, only latlong opens for now"
     )]
     NotLatlong {
+        /// Texels in a row.
+        width: u64,
+        /// Rows.
+        height: u64,
+    },
+    /// Not as wide as high.
+    #[error("the picture is {width} x {height}, but a ball's is square; crop it to the ball")]
+    NotSquare {
         /// Texels in a row.
         width: u64,
         /// Rows.
@@ -180,6 +200,17 @@ pub enum LoadProblem {
     },
 }
 
+impl From<ReadProblem> for LoadProblem {
+    fn from(problem: ReadProblem) -> Self {
+        match problem {
+            ReadProblem::Cancelled => Self::Cancelled,
+            ReadProblem::Io(error) => Self::Io(error),
+            ReadProblem::TooLong(bytes) => Self::FileTooLong { bytes },
+            ReadProblem::OutOfMemory(bytes) => Self::OutOfMemory { bytes },
+        }
+    }
+}
+
 impl LoadProblem {
     fn damaged(format: Format, reason: impl ToString) -> Self {
         Self::Damaged {
@@ -194,10 +225,25 @@ impl LoadProblem {
 /// # Errors
 /// [`LoadError`], one line: what was found, what to do, the path last. Never panics on a bad file.
 pub fn load(path: &Path, progress: &Progress) -> Result<Loaded, LoadError> {
+    load_shaped(path, Shape::Latlong, progress)
+}
+
+/// Opens a square picture of a ball.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_ball(path: &Path, progress: &Progress) -> Result<Loaded, LoadError> {
+    load_shaped(path, Shape::Square, progress)
+}
+
+fn load_shaped(path: &Path, shape: Shape, progress: &Progress) -> Result<Loaded, LoadError> {
     let name = path.display().to_string();
-    match read(path, progress) {
-        Ok(bytes) => load_bytes(&bytes, &name, progress),
-        Err(problem) => Err(LoadError { problem, name }),
+    match read_whole(path, MOST_FILE_BYTES, progress) {
+        Ok(bytes) => load_shaped_bytes(&bytes, shape, &name, progress),
+        Err(problem) => Err(LoadError {
+            problem: problem.into(),
+            name,
+        }),
     }
 }
 
@@ -206,7 +252,16 @@ pub fn load(path: &Path, progress: &Progress) -> Result<Loaded, LoadError> {
 /// # Errors
 /// As [`load`].
 pub fn load_bytes(bytes: &[u8], name: &str, progress: &Progress) -> Result<Loaded, LoadError> {
-    decode(bytes, progress)
+    load_shaped_bytes(bytes, Shape::Latlong, name, progress)
+}
+
+fn load_shaped_bytes(
+    bytes: &[u8],
+    shape: Shape,
+    name: &str,
+    progress: &Progress,
+) -> Result<Loaded, LoadError> {
+    decode(bytes, shape, progress)
         .map(|image| Loaded::from_image(image, progress))
         .map_err(|problem| LoadError {
             problem,
@@ -228,38 +283,10 @@ fn format_of(bytes: &[u8]) -> Result<Format, LoadProblem> {
     })
 }
 
-fn read(path: &Path, progress: &Progress) -> Result<Vec<u8>, LoadProblem> {
-    const STEP: usize = 1 << 22;
-    progress.enter(Stage::Reading);
-    let file = open_regular(path).map_err(LoadProblem::Io)?;
-    let length = file.metadata().map_err(LoadProblem::Io)?.len();
-    if length > MOST_FILE_BYTES {
-        return Err(LoadProblem::FileTooLong { bytes: length });
-    }
-    let mut file = file.take(MOST_FILE_BYTES + 1);
-    let mut bytes = reserved(length as usize)?;
-    while (&mut file)
-        .take(STEP as u64)
-        .read_to_end(&mut bytes)
-        .map_err(LoadProblem::Io)?
-        > 0
-    {
-        progress.step(bytes.len(), length as usize);
-        stop_if_cancelled(progress)?;
-    }
-    // The file may have grown since its length was asked for.
-    if bytes.len() as u64 > MOST_FILE_BYTES {
-        return Err(LoadProblem::FileTooLong {
-            bytes: bytes.len() as u64,
-        });
-    }
-    Ok(bytes)
-}
-
-fn decode(bytes: &[u8], progress: &Progress) -> Result<Image, LoadProblem> {
+fn decode(bytes: &[u8], shape: Shape, progress: &Progress) -> Result<Image, LoadProblem> {
     let format = format_of(bytes)?;
     let (width, height) = header::declared_size(format, bytes)?;
-    let (width, height) = judged_size(width, height)?;
+    let (width, height) = judged_size(width, height, shape)?;
     progress.enter(Stage::Decoding);
     stop_if_cancelled(progress)?;
     let job = Job {
@@ -298,8 +325,22 @@ impl Job<'_> {
     }
 }
 
-fn judged_size(width: u64, height: u64) -> Result<(u32, u32), LoadProblem> {
+/// What a picture must look like.
+#[derive(Clone, Copy, Debug)]
+enum Shape {
+    Latlong,
+    Square,
+}
+
+fn judged_size(width: u64, height: u64, shape: Shape) -> Result<(u32, u32), LoadProblem> {
     match (u32::try_from(width), u32::try_from(height)) {
+        (Ok(w), Ok(h)) if w <= MOST_BALL && h <= MOST_BALL && matches!(shape, Shape::Square) => {
+            if w == 0 || w != h {
+                return Err(LoadProblem::NotSquare { width, height });
+            }
+            Ok((w, h))
+        }
+        _ if matches!(shape, Shape::Square) => Err(LoadProblem::BallTooLarge { width, height }),
         (Ok(w), Ok(h)) if w <= MOST_WIDTH && h <= MOST_HEIGHT => {
             if w == 0 || h == 0 || w.abs_diff(2 * h) > 1 {
                 return Err(LoadProblem::NotLatlong { width, height });

@@ -1,4 +1,4 @@
-//! Panics of a decoder on bad files: caught, and kept off standard error.
+//! Panics of a decoder or parser on bad files: caught, and kept off standard error.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
@@ -12,7 +12,7 @@ thread_local! {
 /// What `run` returns, `None` when it panics. Nothing is printed then: the caller reports a damaged file, and that is all
 /// there is to say. Panics elsewhere are printed as ever. `AssertUnwindSafe`: after a panic everything it touched must be
 /// dropped.
-pub(super) fn caught<T>(run: impl FnOnce() -> T) -> Option<T> {
+pub(crate) fn caught<T>(run: impl FnOnce() -> T) -> Option<T> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
         let usual = panic::take_hook();

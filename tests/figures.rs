@@ -1,0 +1,100 @@
+//! The figures of optics as small pictures beside the kept ones in `tests/figures`.
+//!
+//! After a change that is meant to be seen: `UPDATE_FIGURES=1 cargo test --test figures`, then look at every picture.
+
+#![cfg(feature = "explorer")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "helpers of tests say what they expect by unwrapping"
+)]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use image::RgbImage;
+use sixfold::app::figures::Figure;
+use sixfold::app::model::Surroundings;
+use sixfold::app::picture::{self, Destination, PictureRequest, What};
+use sixfold::app::state::AppState;
+use sixfold::gpu::Gpu;
+use sixfold::imaging::{Environment, Progress};
+
+const SIZE: [u32; 2] = [192, 144];
+
+fn kept_path(figure: Figure) -> PathBuf {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/figures");
+    folder.join(figure.id()).with_extension("png")
+}
+
+fn drawn(gpu: &Gpu, surroundings: &Surroundings, figure: Figure) -> RgbImage {
+    let mut state = AppState {
+        texel_budget: 6 * 128 * 128,
+        environment: surroundings.environment.clone(),
+        ..AppState::default()
+    };
+    figure.show(&mut state);
+    let request = PictureRequest {
+        what: What::Viewport,
+        size: SIZE,
+        overlays: false,
+        to: Destination::Clipboard,
+    };
+    let progress = Progress::new();
+    let picture = picture::draw(gpu, &state, surroundings.clone(), &request, &progress).unwrap();
+    let rgb = picture
+        .rgba
+        .chunks_exact(4)
+        .flat_map(|p| [p[0], p[1], p[2]]);
+    RgbImage::from_raw(SIZE[0], SIZE[1], rgb.collect()).unwrap()
+}
+
+/// Mean difference of two pictures in bytes, and the part of pixels that differ by more than 24.
+fn difference(a: &RgbImage, b: &RgbImage) -> (f64, f64) {
+    assert_eq!(a.dimensions(), b.dimensions());
+    let (mut sum, mut far) = (0.0, 0.0);
+    for (a, b) in a.pixels().zip(b.pixels()) {
+        let most = (0..3).map(|i| a.0[i].abs_diff(b.0[i])).max().unwrap_or(0);
+        sum += f64::from(most);
+        far += f64::from(u8::from(most > 24));
+    }
+    let count = f64::from(SIZE[0] * SIZE[1]);
+    (sum / count, far / count)
+}
+
+#[test]
+fn every_figure_looks_as_it_was_kept() {
+    // The same on one driver; another one's edges and stripes fall by a pixel differently.
+    const MEAN: f64 = 1.0;
+    const FAR: f64 = 0.01;
+    let gpu = Gpu::headless().unwrap();
+    let environment = Environment::Courtyard;
+    let surroundings = Surroundings {
+        loaded: Arc::new(environment.image(&Progress::new()).unwrap()),
+        environment,
+    };
+    let pictures = Figure::ALL.map(|figure| drawn(&gpu, &surroundings, figure));
+    if std::env::var_os("UPDATE_FIGURES").is_some() {
+        for (figure, picture) in Figure::ALL.into_iter().zip(&pictures) {
+            picture.save(kept_path(figure)).unwrap();
+        }
+    }
+    for (figure, picture) in Figure::ALL.into_iter().zip(&pictures) {
+        let kept = image::open(kept_path(figure))
+            .unwrap_or_else(|error| panic!("{figure:?} is not kept: {error}"))
+            .into_rgb8();
+        let (mean, far) = difference(picture, &kept);
+        println!("{figure:?}: mean {mean:.3} of {MEAN}, far {far:.4} of {FAR}");
+        assert!(
+            mean <= MEAN && far <= FAR,
+            "{figure:?}: mean {mean:.3}, far {far:.4}"
+        );
+        // Control: no other figure passes for this one.
+        for (other, picture) in Figure::ALL.into_iter().zip(&pictures) {
+            let (mean, far) = difference(picture, &kept);
+            assert!(
+                other == figure || mean > MEAN || far > FAR,
+                "{other:?} passes for {figure:?}: mean {mean:.3}, far {far:.4}"
+            );
+        }
+    }
+}
