@@ -6,8 +6,8 @@
 //! is turned to face the incident ray.
 //! `eta` is n1/n2: the refractive index on the side that the ray comes from over the index on the other side.
 
-pub mod curve;
 pub mod ball;
+pub mod curve;
 pub mod glass;
 pub mod material;
 pub mod metal;
