@@ -1,10 +1,469 @@
 //! Reflectance over the angle of incidence: the approximations beside the exact curve.
 
-use egui::Ui;
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
 
+use egui::cache::{ComputerMut, FrameCache};
+use egui::{Align2, Color32, Grid, RichText, Sense, Stroke, Ui, vec2};
+use egui_plot::{
+    GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Text, VLine,
+};
+
+use super::action::Action;
 use super::model::Model;
+use super::state::CurvesState;
+use super::story::incidence_rad;
+use super::theme;
+use crate::optics::curve::{LargestError, Law, brewster_angle_rad, widened};
+use crate::optics::material::{Material, Surface};
+use crate::optics::wavelengths::wavelengths;
+use crate::optics::{Formula, critical_angle_rad};
+
+/// Spans of a curve: half a degree each.
+const SAMPLES: u32 = 180;
+/// A little above 1, so that a curve at 1 is seen.
+const TOP: f64 = 1.05;
+/// Width from which the table stands beside the plot.
+const WIDE: f32 = 640.0;
+/// Width of the table there.
+const TABLE_WIDTH: f32 = 310.0;
+/// Red, green and blue of a metal: Okabe and Ito's vermilion, bluish green and sky blue.
+const CHANNELS: [(&str, Color32); 3] = [
+    ("red", Color32::from_rgb(235, 110, 40)),
+    ("green", theme::VECTORS[2]),
+    ("blue", theme::VECTORS[1]),
+];
+
+/// One curve and its row in the table.
+struct Row {
+    name: String,
+    color: Color32,
+    style: LineStyle,
+    width: f32,
+    law: Law,
+    /// What a click on its name chooses.
+    formula: Option<Formula>,
+    shown: bool,
+}
 
 /// Shows the curves in all the space there is.
 pub fn curves_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    ui.label(model.state.material.formula.name());
+    egui::Frame::new().inner_margin(6.0).show(ui, |ui| {
+        let rows = rows(&model.state.material, &model.state.curves);
+        let eta = eta(&model.state.material, &model.state.curves);
+        let incidence = incidence(model);
+        header_ui(ui, model, eta);
+        let size = ui.available_size();
+        if size.x >= WIDE {
+            ui.horizontal_top(|ui| {
+                plot_ui(
+                    ui,
+                    &rows,
+                    eta,
+                    incidence,
+                    size.x - TABLE_WIDTH - 10.0,
+                    size.y,
+                );
+                ui.vertical(|ui| table_ui(ui, model, &rows, incidence));
+            });
+        } else {
+            // The table takes what it needs, but leaves the plot its half.
+            let table = (22.0 * (rows.len() + 1) as f32).min(0.5 * size.y);
+            plot_ui(ui, &rows, eta, incidence, size.x, size.y - table - 6.0);
+            table_ui(ui, model, &rows, incidence);
+        }
+    });
+}
+
+/// The angle of incidence where the probe's ray meets the object, in radians.
+fn incidence(model: &Model<'_>) -> Option<f64> {
+    let ray = model.state.eye_ray?.ray();
+    let hit = model.target.cast(ray)?;
+    Some(incidence_rad(ray, &hit))
+}
+
+/// n1/n2 of the dielectric that is shown; `None` for a metal.
+fn eta(material: &Material, curves: &CurvesState) -> Option<f64> {
+    if material.surface == Surface::Metal {
+        return None;
+    }
+    let all = wavelengths(material);
+    let eta = f64::from(all.get(all.len() / 2)?.eta);
+    Some(if curves.from_inside { 1.0 / eta } else { eta })
+}
+
+fn rows(material: &Material, curves: &CurvesState) -> Vec<Row> {
+    match eta(material, curves) {
+        None => metal_rows(material),
+        Some(eta) => formula_rows(material, curves, eta),
+    }
+}
+
+fn formula_rows(material: &Material, curves: &CurvesState, eta: f64) -> Vec<Row> {
+    let shape = widened(material.shape);
+    let row = |formula: Formula| {
+        let is_exact = formula == Formula::Fresnel;
+        let (color, style) = look(formula);
+        Row {
+            name: formula.name().to_owned(),
+            color,
+            style,
+            width: if is_exact { 4.0 } else { 1.8 },
+            law: Law::Dielectric {
+                formula,
+                eta,
+                shape,
+            },
+            formula: Some(formula),
+            shown: is_exact || curves.shown.contains(&formula),
+        }
+    };
+    Formula::ALL.into_iter().map(row).collect()
+}
+
+/// Okabe and Ito's colours, the dark blue lightened for a dark ground; faults are not drawn through.
+fn look(formula: Formula) -> (Color32, LineStyle) {
+    let [orange, sky_blue, green] = theme::VECTORS;
+    match formula {
+        Formula::Fresnel => (Color32::from_gray(235), LineStyle::Solid),
+        Formula::FresnelS => (orange, LineStyle::Solid),
+        Formula::FresnelP => (sky_blue, LineStyle::Solid),
+        Formula::Schlick => (green, LineStyle::Solid),
+        Formula::Cg => (theme::TEXEL, LineStyle::Solid),
+        Formula::Simple => (Color32::from_rgb(204, 121, 167), LineStyle::Solid),
+        Formula::PrintedSign => (
+            Color32::from_rgb(235, 110, 40),
+            LineStyle::Dotted { spacing: 5.0 },
+        ),
+        Formula::PrintedMix => (
+            Color32::from_rgb(70, 150, 230),
+            LineStyle::Dashed { length: 7.0 },
+        ),
+    }
+}
+
+fn metal_rows(material: &Material) -> Vec<Row> {
+    let exponent = f64::from(material.shape.exponent);
+    let channels = CHANNELS.into_iter().zip(material.metal.index_rgb());
+    channels
+        .flat_map(|((name, color), index)| {
+            let row = |name: String, law: Law, style: LineStyle, width: f32| Row {
+                name,
+                color,
+                style,
+                width,
+                law,
+                formula: None,
+                shown: true,
+            };
+            [
+                row(
+                    format!("{name}, exact"),
+                    Law::Metal { index },
+                    LineStyle::Solid,
+                    3.0,
+                ),
+                row(
+                    format!("{name}, Schlick"),
+                    Law::MetalSchlick { index, exponent },
+                    LineStyle::Dashed { length: 6.0 },
+                    1.8,
+                ),
+            ]
+        })
+        .collect()
+}
+
+/// Which side the light comes from, and the angles that have a name.
+fn header_ui(ui: &mut Ui, model: &mut Model<'_>, eta: Option<f64>) {
+    let Some(eta) = eta else {
+        ui.label(format!(
+            "{}, for red, green and blue light",
+            model.state.material.metal.name()
+        ));
+        return;
+    };
+    ui.horizontal_wrapped(|ui| {
+        let curves = &model.state.curves;
+        for (from_inside, name) in [(false, "from outside"), (true, "from inside")] {
+            let response = ui.selectable_label(curves.from_inside == from_inside, name);
+            if response.clicked() && curves.from_inside != from_inside {
+                model.push(Action::SetCurves(CurvesState {
+                    from_inside,
+                    ..curves.clone()
+                }));
+            }
+        }
+        ui.label(RichText::new(format!("η = {eta:.3}")).monospace());
+        ui.label(RichText::new(angles_text(eta)).small());
+    });
+}
+
+/// "Brewster's angle 56.31°, critical angle 41.81°".
+fn angles_text(eta: f64) -> String {
+    let brewster = brewster_angle_rad(eta).to_degrees();
+    match critical_angle_rad(eta) {
+        Some(critical) => {
+            let critical = critical.to_degrees();
+            format!("Brewster's angle {brewster:.2}°, critical angle {critical:.2}°")
+        }
+        None => format!("Brewster's angle {brewster:.2}°, no total reflection"),
+    }
+}
+
+/// The curves and the angles that are marked.
+fn plot_ui(
+    ui: &mut Ui,
+    rows: &[Row],
+    eta: Option<f64>,
+    incidence_rad: Option<f64>,
+    width: f32,
+    height: f32,
+) {
+    let shown: Vec<(&Row, Arc<Computed>)> = rows
+        .iter()
+        .filter(|row| row.shown)
+        .map(|row| (row, computed(ui.ctx(), row.law)))
+        .collect();
+    let heights = shown.iter().flat_map(|(_, c)| c.points.iter().map(|p| p.y));
+    let highest = heights.fold(1.0, f64::max);
+    let top = highest * TOP;
+    let plot = Plot::new("curves")
+        .width(width)
+        .height(height)
+        .allow_zoom(false)
+        .allow_drag(false)
+        .allow_scroll(false)
+        .allow_axis_zoom_drag(false)
+        .allow_boxed_zoom(false)
+        .allow_double_click_reset(false)
+        .sense(Sense::hover())
+        .show_crosshair(false)
+        .default_x_bounds(0.0, 90.0)
+        .x_grid_spacer(|_| marks(90.0, 15.0))
+        .y_grid_spacer(move |_| marks(top, if top > 2.0 { 1.0 } else { 0.25 }))
+        .x_axis_formatter(|mark, _| format!("{:.0}°", mark.value))
+        .y_axis_formatter(|mark, _| format!("{}", mark.value))
+        .grid_spacing(8.0..=60.0)
+        .label_formatter(|hover| match hover {
+            HoverPosition::NearDataPoint {
+                plot_name,
+                position,
+                ..
+            } => Some(format!(
+                "{plot_name}\n{:.1}°: {:.4}",
+                position.x, position.y
+            )),
+            HoverPosition::Elsewhere { .. } => None,
+        });
+    plot.show(ui, |plot| {
+        plot.set_plot_bounds_x(0.0..=90.0);
+        plot.set_plot_bounds_y(0.0..=top);
+        let faint = Color32::from_gray(150);
+        let mut mark = |name: &str, angle_rad: f64, at: f64, color: Color32, width: f32| {
+            let angle = angle_rad.to_degrees();
+            plot.vline(
+                VLine::new(name, angle)
+                    .stroke(Stroke::new(width, color))
+                    .style(LineStyle::Dashed { length: 4.0 })
+                    .allow_hover(false),
+            );
+            // On the side where there is room.
+            let (anchor, text) = if angle > 45.0 {
+                (Align2::RIGHT_CENTER, format!("{name} {angle:.1}° "))
+            } else {
+                (Align2::LEFT_CENTER, format!(" {name} {angle:.1}°"))
+            };
+            let text = RichText::new(text).color(color);
+            plot.text(
+                Text::new(name, PlotPoint::new(angle, at * top), text)
+                    .anchor(anchor)
+                    .allow_hover(false),
+            );
+        };
+        if let Some(eta) = eta {
+            mark("Brewster", brewster_angle_rad(eta), 0.68, faint, 1.0);
+            if let Some(critical) = critical_angle_rad(eta) {
+                mark("critical", critical, 0.80, theme::TEXEL, 1.0);
+            }
+        }
+        if let Some(angle) = incidence_rad {
+            mark("θ", angle, 0.56, theme::PROBE, 1.5);
+        }
+        for (row, computed) in shown {
+            plot.line(
+                Line::new(&row.name, PlotPoints::Owned(computed.points.clone()))
+                    .color(row.color)
+                    .width(row.width)
+                    .style(row.style),
+            );
+        }
+    });
+}
+
+/// Grid lines from 0 on; every second one is stronger.
+fn marks(to: f64, step: f64) -> Vec<GridMark> {
+    let count = (to / step).floor() as u32;
+    (0..=count)
+        .map(|i| GridMark {
+            value: f64::from(i) * step,
+            step_size: if i % 2 == 0 { 2.0 * step } else { step },
+        })
+        .collect()
+}
+
+/// Each formula with its value at the angle of incidence and its largest error.
+fn table_ui(ui: &mut Ui, model: &mut Model<'_>, rows: &[Row], incidence_rad: Option<f64>) {
+    egui::ScrollArea::vertical()
+        .auto_shrink([false, false])
+        .show(ui, |ui| {
+            Grid::new("formulas")
+                .num_columns(4)
+                .spacing([10.0, 2.0])
+                .show(ui, |ui| {
+                    ui.label(RichText::new("formula").small());
+                    let at = incidence_rad.map_or("point at the object".to_owned(), |angle| {
+                        format!("at {:.1}°", angle.to_degrees())
+                    });
+                    ui.label(RichText::new(at).small());
+                    ui.label(RichText::new("largest error").small());
+                    ui.label(RichText::new("there").small());
+                    ui.end_row();
+                    for row in rows {
+                        row_ui(ui, model, row, incidence_rad);
+                        ui.end_row();
+                    }
+                });
+        });
+}
+
+fn row_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, incidence_rad: Option<f64>) {
+    ui.horizontal(|ui| {
+        if let Some(formula) = row.formula {
+            show_ui(ui, model, row, formula);
+        }
+        swatch_ui(ui, row);
+        match row.formula {
+            Some(formula) => choose_ui(ui, model, row, formula),
+            None => {
+                ui.label(&row.name);
+            }
+        }
+    });
+    if !row.shown {
+        return;
+    }
+    let mono = |text: String| RichText::new(text).monospace().size(11.5);
+    let value = incidence_rad.map(|angle| format!("{:.4}", row.law.reflectance(angle)));
+    ui.label(mono(value.unwrap_or_else(|| "–".to_owned())));
+    if row.law.exact() == row.law {
+        ui.label(mono("exact".to_owned()));
+        return;
+    }
+    let LargestError { error, angle_rad } = computed(ui.ctx(), row.law).largest;
+    ui.label(mono(format!("{error:+.4}")));
+    ui.label(mono(format!("{:.1}°", angle_rad.to_degrees())));
+}
+
+/// Draws the curve or not; the exact one always is.
+fn show_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, formula: Formula) {
+    let mut shown = row.shown;
+    let checkbox = egui::Checkbox::without_text(&mut shown);
+    let response = ui.add_enabled(formula != Formula::Fresnel, checkbox);
+    let label = format!("Draw {}", row.name);
+    response.widget_info(|| {
+        egui::WidgetInfo::selected(egui::Role::CheckBox, true, row.shown, &label)
+    });
+    if response.on_hover_text(&label).changed() {
+        let mut curves = model.state.curves.clone();
+        curves.shown.retain(|f| *f != formula);
+        if shown {
+            curves.shown.push(formula);
+        }
+        model.push(Action::SetCurves(curves));
+    }
+}
+
+/// Makes the formula the material's.
+fn choose_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, formula: Formula) {
+    let material = &model.state.material;
+    let response = ui
+        .selectable_label(material.formula == formula, &row.name)
+        .on_hover_text("Click: the material reflects by this formula");
+    if response.clicked() && material.formula != formula {
+        model.push(Action::SetMaterial(Box::new(Material {
+            formula,
+            ..material.clone()
+        })));
+    }
+}
+
+/// A piece of the curve's line.
+fn swatch_ui(ui: &mut Ui, row: &Row) {
+    let (rect, _) = ui.allocate_exact_size(vec2(18.0, 10.0), Sense::hover());
+    let line = [rect.left_center(), rect.right_center()];
+    let stroke = Stroke::new(row.width.min(3.0), row.color);
+    let shapes = match row.style {
+        LineStyle::Solid => vec![egui::Shape::line_segment(line, stroke)],
+        LineStyle::Dashed { .. } => egui::Shape::dashed_line(&line, stroke, 5.0, 3.0),
+        LineStyle::Dotted { .. } => egui::Shape::dotted_line(&line, row.color, 4.0, 1.2),
+    };
+    ui.painter().extend(shapes);
+}
+
+/// What is computed once for each curve that is shown, and kept while it is.
+struct Computed {
+    points: Vec<PlotPoint>,
+    largest: LargestError,
+}
+
+#[derive(Default)]
+struct Computer;
+
+impl ComputerMut<Key, Arc<Computed>> for Computer {
+    fn compute(&mut self, Key(law): Key) -> Arc<Computed> {
+        let points = law.curve(SAMPLES).into_iter();
+        Arc::new(Computed {
+            points: points
+                .map(|[x, y]| PlotPoint::new(x.to_degrees(), y))
+                .collect(),
+            largest: law.largest_error(),
+        })
+    }
+}
+
+fn computed(ctx: &egui::Context, law: Law) -> Arc<Computed> {
+    type Cache = FrameCache<Arc<Computed>, Computer>;
+    ctx.memory_mut(|memory| Arc::clone(memory.caches.cache::<Cache>().get(Key(law))))
+}
+
+/// A law as a key: numbers count by their bits.
+#[derive(Clone, Copy)]
+struct Key(Law);
+
+impl Hash for Key {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let mut numbers = |kind: u8, numbers: &[f64]| {
+            kind.hash(state);
+            numbers.iter().for_each(|x| x.to_bits().hash(state));
+        };
+        match self.0 {
+            Law::Dielectric {
+                formula,
+                eta,
+                shape,
+            } => {
+                numbers(
+                    0,
+                    &[eta, shape.exponent, shape.bias, shape.scale, shape.power],
+                );
+                formula.hash(state);
+            }
+            Law::Metal { index: [n, k] } => numbers(1, &[n, k]),
+            Law::MetalSchlick {
+                index: [n, k],
+                exponent,
+            } => numbers(2, &[n, k, exponent]),
+        }
+    }
 }

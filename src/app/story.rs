@@ -6,7 +6,7 @@ mod steps;
 
 use egui::{Grid, RichText, Slider, Ui};
 
-pub use steps::{Arrow, StoryStep, steps, vectors};
+pub use steps::{Arrow, StoryStep, incidence_rad, steps, vectors};
 
 use super::action::Action;
 use super::model::Model;

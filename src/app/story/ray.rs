@@ -1,22 +1,30 @@
 //! One ray from the eye to its lookups, through what the material does with it.
 
 use egui::Color32;
+use glam::Vec3;
 
 use super::steps::{
-    Arrow, Dir, Mark, StoryStep, dir_of, number_text, point_of, row, vector_text, vectors,
+    Arrow, Dir, Mark, StoryStep, dir_of, incidence_rad, number_text, point_of, row, vector_text,
+    vectors,
 };
 use crate::app::state::AppState;
 use crate::mapping::MappingId;
+use crate::optics::ball::{
+    ball_bounce, ball_enter, ball_exit_dir, ball_exit_weight, ball_left_weight,
+};
 use crate::optics::curve::widened;
 use crate::optics::material::{Material, Surface, Surfaces};
 use crate::optics::metal::Metal;
 use crate::optics::reflectance::{Shape, head_on, metal_reflectance};
 use crate::optics::reflection::reflect_as_printed;
+use crate::optics::wavelengths::{Wavelength, wavelengths};
 use crate::optics::{self, Formula, Meeting};
-use crate::scene::{Hit, Target};
+use crate::scene::{Hit, Object, Target};
 
 /// A refracted ray that has no colour of its own, and the sky behind a veil: Okabe and Ito's reddish purple.
 const REFRACTED: Color32 = Color32::from_rgb(204, 121, 167);
+/// Arrows of what happens outside: incident, normal, reflected.
+const AT_THE_SURFACE: usize = 3;
 /// Most refracted rays that are shown: more would hide one another.
 pub const MOST_RAYS: usize = 8;
 
@@ -33,6 +41,7 @@ pub fn steps(state: &AppState, target: &Target) -> Vec<StoryStep> {
         hit,
         incident: dir_of(ray.dir).normalized(),
         normal: dir_of(hit.normal).normalized(),
+        incidence_rad: incidence_rad(ray, &hit),
         arrows: Vec::new(),
         steps: Vec::new(),
     };
@@ -65,6 +74,7 @@ struct Told<'a> {
     incident: Dir,
     /// As the object has it: outwards.
     normal: Dir,
+    incidence_rad: f64,
     /// They stay while the story goes on.
     arrows: Vec<Arrow>,
     steps: Vec<StoryStep>,
@@ -132,7 +142,10 @@ impl Told<'_> {
     }
 
     fn hit(&mut self) {
-        let object = self.state.object.name();
+        let object = match self.state.model {
+            Some(_) => "model",
+            None => self.state.object.name(),
+        };
         self.push(
             "The hit",
             format!("It meets the {object} first here. Whatever it would meet behind is hidden."),
@@ -146,8 +159,7 @@ impl Told<'_> {
     fn normal(&mut self) {
         let along = self.incident.dot(self.normal);
         let text = if along > 0.0 {
-            "The normal, interpolated from the vertices, points a little away from the eye here, near the outline; refraction \
-             turns it round."
+            "The normal, interpolated from the vertices, points a little away from the eye here, near the outline."
         } else {
             "The normal stands upright on the surface. The angle between it and the ray, turned back, is the angle of \
              incidence θ."
@@ -158,10 +170,7 @@ impl Told<'_> {
             vec![
                 row("n", vector_text(self.normal)),
                 row("cos θ = −d · n", number_text(-along)),
-                row(
-                    "θ",
-                    degrees_text(angle_rad(self.incident, self.normal, along)),
-                ),
+                row("θ", degrees_text(self.incidence_rad)),
             ],
         );
     }
@@ -211,10 +220,18 @@ impl Told<'_> {
 
     /// The picture of a lit ball, by the normal.
     fn ball_picture(&mut self) {
+        // Right and up as seen along this very ray, as the renderer has it.
+        let across = |axis: Vec3, other: Dir| {
+            let axis = dir_of(axis);
+            let left = axis - self.incident * axis.dot(self.incident) - other * axis.dot(other);
+            left.normalized()
+        };
         let frame = self.state.camera.ray_frame(1.0);
-        let along = |axis: glam::Vec3| dir_of(axis.normalize_or_zero()).dot(self.normal);
-        let seen = Dir::new(along(frame.right), along(frame.up), along(frame.forward));
-        let mut numbers = vec![row("n in the eye's axes", vector_text(seen))];
+        let right = across(frame.right, Dir::new(0.0, 0.0, 0.0));
+        let up = across(frame.up, right);
+        let [x, y, z] = [right, up, self.incident].map(|axis| axis.dot(self.normal));
+        let seen = Dir::new(x, y, z);
+        let mut numbers = vec![row("n: right, up, away", vector_text(seen))];
         if let Some(place) = MappingId::Matcap.forward(seen) {
             numbers.push(row(
                 "u, v",
@@ -232,7 +249,7 @@ impl Told<'_> {
     fn metal(&mut self, metal: Metal) {
         let cos = self.cos_incident();
         let names = ["red", "green", "blue"];
-        let mut numbers = vec![row("θ", degrees_text(cos.acos()))];
+        let mut numbers = vec![row("θ", degrees_text(self.incidence_rad))];
         for (name, [n, k]) in names.into_iter().zip(metal.index_rgb()) {
             let part = metal_reflectance(cos, n, k);
             numbers.push(row(format!("{name}: {n} + {k} i"), number_text(part)));
@@ -313,40 +330,52 @@ impl Told<'_> {
         } else {
             self.bent(&rays);
             if material.surfaces == Surfaces::Both {
-                self.inside();
+                self.inside(&rays);
+                return;
             }
         }
         self.reflectance(&rays);
     }
 
     fn refracted_rays(&self, material: &Material) -> Vec<Refracted> {
-        let of = |eta: f64, name: String, color: Color32| Refracted {
-            name,
-            color,
-            meeting: self.meeting(eta),
-            dir: optics::refract(self.incident, self.normal, eta),
-        };
-        if material.surface == Surface::Dielectric {
-            return vec![of(f64::from(material.eta()), String::new(), REFRACTED)];
-        }
         let all = wavelengths(material);
         let last = all.len().saturating_sub(1);
         let shown = all.len().min(MOST_RAYS);
         // Evenly chosen, the first and the last among them.
         let chosen = (0..shown).filter_map(|i| all.get(i * last / (shown - 1).max(1)));
-        chosen
-            .map(|w| {
-                let name = format!("{:.0} nm", w.wavelength_um * 1000.0);
-                of(w.eta, name, w.color)
-            })
-            .collect()
+        chosen.map(|w| self.wave(w)).collect()
+    }
+
+    fn wave(&self, wavelength: &Wavelength) -> Refracted {
+        let eta = f64::from(wavelength.eta);
+        let is_one = self.state.material.surface != Surface::Glass;
+        Refracted {
+            name: if is_one {
+                String::new()
+            } else {
+                format!("{:.0} nm", wavelength.wavelength_um * 1000.0)
+            },
+            color: if is_one {
+                REFRACTED
+            } else {
+                hue(wavelength.rgb)
+            },
+            meeting: self.meeting(eta),
+            dir: optics::refract(self.incident, self.normal, eta),
+        }
+    }
+
+    /// The wavelength in the middle, at which the reflectance is computed for all.
+    fn middle(&self) -> Option<Refracted> {
+        let all = wavelengths(&self.state.material);
+        all.get(all.len() / 2).map(|w| self.wave(w))
     }
 
     fn total_reflection(&mut self, rays: &[Refracted]) {
         let critical = rays
             .first()
             .and_then(|ray| optics::critical_angle_rad(ray.meeting.eta));
-        let mut numbers = vec![row("θ", degrees_text(self.cos_incident().acos()))];
+        let mut numbers = vec![row("θ", degrees_text(self.incidence_rad))];
         numbers.extend(critical.map(|angle| row("critical angle", degrees_text(angle))));
         self.push(
             "Total internal reflection",
@@ -361,7 +390,7 @@ impl Told<'_> {
         let mut numbers = Vec::new();
         for (i, ray) in rays.iter().enumerate() {
             let Some(dir) = ray.dir else {
-                numbers.push(row(ray.label(), "totally reflected"));
+                numbers.push(row(ray.label("t"), "totally reflected"));
                 continue;
             };
             let angle = ray.meeting.cos_refracted.clamp(0.0, 1.0).acos();
@@ -370,7 +399,7 @@ impl Told<'_> {
                 vector_text(dir),
                 degrees_text(angle)
             );
-            numbers.push(row(ray.label(), value));
+            numbers.push(row(ray.label("t"), value));
             // In a fan only the outermost are named: the names would cover one another.
             let name = match (ray.name.is_empty(), i == 0 || i == last) {
                 (true, _) => "refracted",
@@ -429,19 +458,107 @@ impl Told<'_> {
         self.push_lookup("Its lookup", text, numbers, marks);
     }
 
-    /// With two surfaces the ray goes on.
-    fn inside(&mut self) {
+    /// With two surfaces the ray goes on: through the ball exactly, else in words.
+    fn inside(&mut self, rays: &[Refracted]) {
         let bounces = self.state.material.bounces;
+        let is_ball = self.state.model.is_none() && self.state.object == Object::Sphere;
+        let Some(middle) = self.middle().filter(|_| is_ball) else {
+            self.push(
+                "Inside the body",
+                "The ray goes on inside until it meets the surface again: there a part of it leaves and looks up the map, and \
+                 the rest is reflected inwards.",
+                vec![row("inner reflections followed", bounces.to_string())],
+            );
+            return;
+        };
+        let path = |eta: f64| {
+            let enter = ball_enter(self.incident, self.normal, eta);
+            let path = std::iter::successors(Some(enter), |ray| Some(ball_bounce(*ray)));
+            path.take(1 + bounces as usize).collect::<Vec<_>>()
+        };
+        let chords = path(middle.meeting.eta);
+        let all: Vec<_> = rays
+            .iter()
+            .map(|ray| (ray, path(ray.meeting.eta)))
+            .collect();
+
+        // One chord after the other, instead of the short arrows of the first surface.
+        self.arrows.truncate(AT_THE_SURFACE);
+        let mut from = self.hit.point;
+        for ray in &chords {
+            let to = point_of(ray.normal);
+            self.arrows.push(Arrow {
+                from,
+                to,
+                name: String::new(),
+                color: middle.color,
+                arrives: true,
+            });
+            from = to;
+        }
+        let point_rows = chords.iter().enumerate().map(|(i, ray)| {
+            let angle = ray.cos_refracted.clamp(0.0, 1.0).acos();
+            let value = format!(
+                "{}, {} inside",
+                vector_text(ray.normal),
+                degrees_text(angle)
+            );
+            row(format!("point {}", i + 1), value)
+        });
         self.push(
-            "Inside the body",
-            "The ray goes on inside until it meets the surface again: there a part of it leaves and looks up the map, the rest \
-             is reflected inwards and goes round.",
-            vec![row("inner reflections followed", bounces.to_string())],
+            "Inside the ball",
+            "The ray goes on and meets the ball again, always at the same angle: there a part of it leaves, and the rest is \
+             reflected inwards.",
+            point_rows.collect(),
+        );
+
+        let mut marks = Vec::new();
+        let last = rays.len().saturating_sub(1);
+        for (i, (ray, path)) in all
+            .iter()
+            .enumerate()
+            .filter(|(_, (ray, _))| ray.dir.is_some())
+        {
+            for (inner, at) in path.iter().enumerate() {
+                let dir = ball_exit_dir(*at);
+                let name = if inner == 0 && (i == 0 || i == last) {
+                    ray.label("out")
+                } else {
+                    String::new()
+                };
+                let point = point_of(at.normal);
+                let arrow = Arrow::from_point(point, point_of(dir), name, ray.color);
+                self.arrows.push(arrow);
+                let color = ray.color;
+                marks.push(Mark { dir, color });
+            }
+        }
+        let mut numbers = vec![row(
+            "reflected outside",
+            number_text(outside_weight(&middle)),
+        )];
+        numbers.extend(chords.iter().enumerate().map(|(inner, at)| {
+            row(
+                format!("out after {inner} inner reflections"),
+                number_text(ball_exit_weight(*at)),
+            )
+        }));
+        if let Some(end) = chords.last() {
+            numbers.push(row(
+                "followed no further",
+                number_text(ball_left_weight(*end)),
+            ));
+        }
+        self.push_lookup(
+            "The ways out",
+            "Whatever leaves looks up the map in its own direction. What is seen is the sum of these parts; together they are 1.",
+            numbers,
+            marks,
         );
     }
 
     fn reflectance(&mut self, rays: &[Refracted]) {
-        let Some(ray) = rays.get(rays.len() / 2) else {
+        let Some(ray) = self.middle() else {
             return;
         };
         let material = &self.state.material;
@@ -487,13 +604,19 @@ impl Told<'_> {
 }
 
 impl Refracted {
-    fn label(&self) -> String {
+    /// The wavelength, or what a ray without one is called.
+    fn label(&self, or: &str) -> String {
         if self.name.is_empty() {
-            "t".to_owned()
+            or.to_owned()
         } else {
             self.name.clone()
         }
     }
+}
+
+/// Part of the unpolarised light that the first surface reflects.
+fn outside_weight(ray: &Refracted) -> f64 {
+    Formula::Fresnel.reflectance(&ray.meeting, &Shape::default())
 }
 
 fn in_brackets(name: &str) -> String {
@@ -569,31 +692,13 @@ fn degrees_text(angle_rad: f64) -> String {
     format!("{:.2}°", angle_rad.to_degrees())
 }
 
-/// The angle between the ray turned back and the normal, accurate also head-on.
-fn angle_rad(incident: Dir, normal: Dir, along: f64) -> f64 {
-    f64::atan2(incident.cross(normal).length(), -along)
-}
-
-struct Wavelength {
-    wavelength_um: f64,
-    eta: f64,
-    color: Color32,
-}
-
-// Stand-in until optics::wavelengths is there.
-fn wavelengths(material: &Material) -> Vec<Wavelength> {
-    optics::spectrum::lines(material.wavelengths)
-        .into_iter()
-        .map(|line| Wavelength {
-            wavelength_um: line.wavelength_um,
-            eta: 1.0 / material.glass.index(line.wavelength_um),
-            color: egui::ecolor::Hsva::new(
-                (0.75 * (0.7 - line.wavelength_um) / 0.3) as f32,
-                0.8,
-                1.0,
-                1.0,
-            )
-            .into(),
-        })
-        .collect()
+/// The colour of a wavelength at full brightness, from its weights on linear red, green and blue. What a screen cannot show is
+/// left out.
+fn hue([r, g, b]: [f32; 3]) -> Color32 {
+    let brightest = r.max(g).max(b);
+    if brightest <= 0.0 {
+        return Color32::WHITE;
+    }
+    let [r, g, b] = [r, g, b].map(|c| (c / brightest).max(0.0));
+    egui::Rgba::from_rgb(r, g, b).into()
 }

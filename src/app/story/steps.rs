@@ -102,6 +102,13 @@ pub fn vectors(ray: Ray, hit: &Hit) -> [Arrow; 3] {
     ]
 }
 
+/// The angle between a ray and the normal that it meets, turned to face it, in radians; accurate also head-on.
+#[must_use]
+pub fn incidence_rad(ray: Ray, hit: &Hit) -> f64 {
+    let (incident, normal) = (dir_of(ray.dir), dir_of(hit.normal));
+    f64::atan2(incident.cross(normal).length(), incident.dot(normal).abs())
+}
+
 /// A vector of the scene in f64.
 pub fn dir_of(vector: Vec3) -> Dir {
     Dir::from_f64(vector.to_array().map(f64::from))
