@@ -371,9 +371,8 @@ fn show_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, formula: Formula) {
     let checkbox = egui::Checkbox::without_text(&mut shown);
     let response = ui.add_enabled(formula != Formula::Fresnel, checkbox);
     let label = format!("Draw {}", row.name);
-    response.widget_info(|| {
-        egui::WidgetInfo::selected(egui::Role::CheckBox, true, row.shown, &label)
-    });
+    response
+        .widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, row.shown, &label));
     if response.on_hover_text(&label).changed() {
         let mut curves = model.state.curves.clone();
         curves.shown.retain(|f| *f != formula);
