@@ -5,7 +5,7 @@ use egui_tiles::{
 };
 
 use super::action::Action;
-use super::arrangement::Pane;
+use super::arrangement::{Arrangement, Pane};
 use super::model::Model;
 use super::state::{AppState, StoryState};
 use super::{curves, map_panel, story, viewport};
@@ -63,8 +63,20 @@ fn find(tree: &Tree<Pane>, pane: Pane) -> Option<TileId> {
     tree.tiles.find_pane(&pane)
 }
 
-/// Puts a pane beside the last map, or below everything.
+/// Puts a map beside the last map, or below everything; what needs room to be read, beside the viewport.
 fn insert(tree: &mut Tree<Pane>, pane: Pane) {
+    if !matches!(pane, Pane::Map(_))
+        && let Some(there) = Arrangement::of_tree(tree)
+    {
+        let other = [Pane::Curves, Pane::Story]
+            .into_iter()
+            .find(|other| there.holds(*other));
+        let (neighbour, is_below) = other.map_or((Pane::Viewport, false), |other| (other, true));
+        if let Some(changed) = there.beside(neighbour, pane, is_below).to_tree(tree_id()) {
+            *tree = changed;
+            return;
+        }
+    }
     let id = tree.tiles.insert_pane(pane);
     let grids: Vec<TileId> = tree
         .tiles
