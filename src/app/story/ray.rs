@@ -394,12 +394,15 @@ impl Told<'_> {
                 continue;
             };
             let angle = ray.meeting.cos_refracted.clamp(0.0, 1.0).acos();
-            let value = format!(
-                "{}, {} off the normal",
-                vector_text(dir),
-                degrees_text(angle)
-            );
-            numbers.push(row(ray.label("t"), value));
+            if rays.len() == 1 {
+                numbers.push(row(ray.label("t"), vector_text(dir)));
+                numbers.push(row("angle of refraction", degrees_text(angle)));
+            } else {
+                // The directions hardly differ: their angles do.
+                let eta = number_text(ray.meeting.eta);
+                let turned = format!("η {eta}, {} off n", degrees_text(angle));
+                numbers.push(row(ray.label("t"), turned));
+            }
             // In a fan only the outermost are named: the names would cover one another.
             let name = match (ray.name.is_empty(), i == 0 || i == last) {
                 (true, _) => "refracted",
@@ -496,20 +499,24 @@ impl Told<'_> {
             });
             from = to;
         }
-        let point_rows = chords.iter().enumerate().map(|(i, ray)| {
-            let angle = ray.cos_refracted.clamp(0.0, 1.0).acos();
-            let value = format!(
-                "{}, {} inside",
-                vector_text(ray.normal),
-                degrees_text(angle)
-            );
-            row(format!("point {}", i + 1), value)
-        });
+        let angle = chords
+            .first()
+            .map(|ray| ray.cos_refracted.clamp(0.0, 1.0).acos());
+        let mut numbers: Vec<_> = angle
+            .map(|angle| row("angle inside", degrees_text(angle)))
+            .into_iter()
+            .collect();
+        numbers.extend(
+            chords
+                .iter()
+                .enumerate()
+                .map(|(i, ray)| row(format!("point {}", i + 1), vector_text(ray.normal))),
+        );
         self.push(
             "Inside the ball",
             "The ray goes on and meets the ball again, always at the same angle: there a part of it leaves, and the rest is \
              reflected inwards.",
-            point_rows.collect(),
+            numbers,
         );
 
         let mut marks = Vec::new();
@@ -689,7 +696,7 @@ fn mix_text(part: f64, first: &str, second: &str) -> String {
 }
 
 fn degrees_text(angle_rad: f64) -> String {
-    format!("{:.2}°", angle_rad.to_degrees())
+    format!("{:.3}°", angle_rad.to_degrees())
 }
 
 /// The colour of a wavelength at full brightness, from its weights on linear red, green and blue. What a screen cannot show is
