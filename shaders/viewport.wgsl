@@ -20,6 +20,7 @@ struct View {
 struct Found {
     point: ChartPoint,
     tangents: Tangents,
+    level: f32,
     // Linear.
     light: vec3f,
 }
@@ -35,12 +36,20 @@ fn look_up(dir: vec3f, right: vec3f, down: vec3f) -> Found {
     if NEEDS_LEVEL || SHOW_GRID {
         found.tangents = chart_tangents(found.point, dir, size);
     }
-    var level = 0.0;
     if NEEDS_LEVEL {
-        level = map_level(footprint_rad(right, down), found.tangents);
+        found.level = map_level(footprint_rad(right, down), found.tangents);
     }
-    found.light = map_light(found.point, size, level);
+    found.light = map_light(found.point, size, found.level);
     return found;
+}
+
+// A lookup beside another one, which has worked out the level for both.
+fn look_up_beside(dir: vec3f, level: f32) -> vec3f {
+    let p = map_forward(dir);
+    if p.chart == NO_CHART {
+        return vec3f(0.0);
+    }
+    return map_light(p, chart_size(), level);
 }
 
 fn display(light: vec3f) -> vec3f {

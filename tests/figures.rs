@@ -21,9 +21,16 @@ use sixfold::imaging::{Environment, Progress};
 
 const SIZE: [u32; 2] = [192, 144];
 
-fn kept_path(figure: Figure) -> PathBuf {
+fn kept_path(figure: Figure, gpu: &Gpu) -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/figures");
-    folder.join(figure.id()).with_extension("png")
+    // On GL a triangle takes what is not interpolated from its last vertex, elsewhere from its first.
+    let is_gl = gpu.adapter_info.backend == wgpu::Backend::Gl;
+    let end = if is_gl && figure == Figure::PerVertex {
+        "-gl"
+    } else {
+        ""
+    };
+    folder.join(format!("{}{end}.png", figure.id()))
 }
 
 fn drawn(gpu: &Gpu, surroundings: &Surroundings, figure: Figure) -> RgbImage {
@@ -63,9 +70,10 @@ fn difference(a: &RgbImage, b: &RgbImage) -> (f64, f64) {
 
 #[test]
 fn every_figure_looks_as_it_was_kept() {
-    // The same on one driver; another one's edges and stripes fall by a pixel differently.
-    const MEAN: f64 = 1.0;
-    const FAR: f64 = 0.01;
+    // 0 on the driver that drew the kept pictures, and at most 0.067 and 0.0010 on the other one, whose edges fall by a pixel
+    // differently.
+    const MEAN: f64 = 0.2;
+    const FAR: f64 = 0.003;
     let gpu = Gpu::headless().unwrap();
     let environment = Environment::Courtyard;
     let surroundings = Surroundings {
@@ -75,11 +83,11 @@ fn every_figure_looks_as_it_was_kept() {
     let pictures = Figure::ALL.map(|figure| drawn(&gpu, &surroundings, figure));
     if std::env::var_os("UPDATE_FIGURES").is_some() {
         for (figure, picture) in Figure::ALL.into_iter().zip(&pictures) {
-            picture.save(kept_path(figure)).unwrap();
+            picture.save(kept_path(figure, &gpu)).unwrap();
         }
     }
     for (figure, picture) in Figure::ALL.into_iter().zip(&pictures) {
-        let kept = image::open(kept_path(figure))
+        let kept = image::open(kept_path(figure, &gpu))
             .unwrap_or_else(|error| panic!("{figure:?} is not kept: {error}"))
             .into_rgb8();
         let (mean, far) = difference(picture, &kept);

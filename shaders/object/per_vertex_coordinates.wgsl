@@ -1,5 +1,6 @@
 // A mirror whose chart, u and v are computed at each vertex; u and v are interpolated, as the automatic generation of
-// coordinates did. The chart is that of one vertex: where the others lie on another, the picture is wrong, and marked.
+// coordinates did. The chart is that of the triangle's first
+// vertex (on GL of its last): where the others lie on another, the picture is wrong, and marked.
 
 struct ObjectPoint {
     @builtin(position) position: vec4f,

@@ -14,18 +14,15 @@ fn refracted_spectrum(incident: vec3f, normal: vec3f) -> Spectrum {
     let middle = meet(incident, normal, material.wavelengths[count / 2u].w);
     var spectrum: Spectrum;
     spectrum.dir = refracted_dir(incident, normal, middle);
-    // Neighbouring wavelengths cover as much of the map: one footprint serves all.
     spectrum.right = dpdx(spectrum.dir);
     spectrum.down = dpdy(spectrum.dir);
+    spectrum.found = look_up(spectrum.dir, spectrum.right, spectrum.down);
     for (var i = 0u; i < count; i++) {
         let wavelength = material.wavelengths[i];
         let m = meet(incident, normal, wavelength.w);
         let dir = refracted_dir(incident, normal, m);
-        let found = look_up(dir, spectrum.right, spectrum.down);
-        spectrum.light += found.light * wavelength.rgb;
-        if i == count / 2u {
-            spectrum.found = found;
-        }
+        // Neighbouring wavelengths cover as much of the map: one level serves all.
+        spectrum.light += look_up_beside(dir, spectrum.found.level) * wavelength.rgb;
     }
     // A few pure colours can leave the screen's range by a little.
     spectrum.light = max(spectrum.light, vec3f(0.0));

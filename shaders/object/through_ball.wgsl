@@ -8,12 +8,10 @@ fn light_through(incident: vec3f, normal: vec3f, at: vec2f) -> vec3f {
     let found = look_up(reflected, dpdx(reflected), dpdy(reflected));
     var middle = ball_enter(incident, normal, material.wavelengths[count / 2u].w);
     // Neighbouring wavelengths leave with nearly the same footprint.
-    var right: array<vec3f, MOST_BOUNCES + 1>;
-    var down: array<vec3f, MOST_BOUNCES + 1>;
+    var levels: array<f32, MOST_BOUNCES + 1>;
     for (var j = 0u; j <= min(bounces, MOST_BOUNCES); j++) {
         let dir = ball_exit_dir(middle);
-        right[j] = dpdx(dir);
-        down[j] = dpdy(dir);
+        levels[j] = look_up(dir, dpdx(dir), dpdy(dir)).level;
         middle = ball_bounce(middle);
     }
     var light = vec3f(0.0);
@@ -23,7 +21,7 @@ fn light_through(incident: vec3f, normal: vec3f, at: vec2f) -> vec3f {
         let outside = 0.5 * (ray.reflectance.x + ray.reflectance.y);
         light += found.light * wavelength.rgb * outside;
         for (var j = 0u; j <= min(bounces, MOST_BOUNCES); j++) {
-            let leaving = look_up(ball_exit_dir(ray), right[j], down[j]).light;
+            let leaving = look_up_beside(ball_exit_dir(ray), levels[j]);
             light += leaving * wavelength.rgb * ball_exit_weight(ray);
             ray = ball_bounce(ray);
         }

@@ -11,7 +11,7 @@ use crate::optics::material::{
     BallPicture, Dispersion, INDEX_RANGE, MAGNIFICATION_RANGE, MOST_BOUNCES, Material, Shading,
     Surface, Surfaces, View, WAVELENGTHS_RANGE,
 };
-use crate::optics::presets::PRESETS;
+use crate::optics::presets::presets;
 use crate::optics::{Formula, critical_angle_rad};
 use crate::optics::{glass::Glass, metal::Metal};
 
@@ -63,14 +63,14 @@ fn preset_ui(ui: &mut Ui, material: &mut Material) {
         view: material.view,
         ..make()
     };
-    let now = PRESETS
+    let now = presets()
         .iter()
         .find(|(_, make)| made(make) == *material)
         .map(|(name, _)| *name);
-    let names = PRESETS.iter().map(|(name, _)| Some(*name));
+    let names = presets().iter().map(|(name, _)| Some(*name));
     let title = |name: &Option<&'static str>| name.unwrap_or("your own").to_owned();
     let chosen = choose_ui(ui, "preset", &now, names, title).flatten();
-    let preset = PRESETS.iter().find(|(name, _)| Some(*name) == chosen);
+    let preset = presets().iter().find(|(name, _)| Some(*name) == chosen);
     if let Some((_, make)) = preset {
         *material = made(make);
     }

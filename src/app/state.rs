@@ -17,7 +17,7 @@ use super::objects::target_of;
 use super::viewport::looked_up;
 
 /// Version of the saved form. A scene of a later version is refused; earlier ones are migrated by [`AppState::from_json`].
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 2;
 
 /// Everything that a saved scene holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use crate::imaging::png_out::MAX_SIDE;
 use crate::mapping::{MappingId, UnknownMapping};
 use crate::optics::Material;
-use crate::optics::presets::PRESETS;
+use crate::optics::presets::presets;
 use crate::scene::Object;
 
 /// Options of `sixfold render`. What is `None` stays as the scene has it.
@@ -109,10 +109,10 @@ pub(super) fn size_px(text: &str) -> Result<[u32; 2], String> {
 }
 
 fn material(text: &str) -> Result<Material, String> {
-    let id = |name: &str| name.replace(' ', "-");
-    let found = PRESETS.iter().find(|(name, _)| id(name) == text);
+    let id = |name: &str| name.to_lowercase().replace(' ', "-").replace('\'', "");
+    let found = presets().iter().find(|(name, _)| id(name) == text);
     found.map(|(_, make)| make()).ok_or_else(|| {
-        let names: Vec<String> = PRESETS.iter().map(|(name, _)| id(name)).collect();
+        let names: Vec<String> = presets().iter().map(|(name, _)| id(name)).collect();
         format!("the materials are {}", names.join(", "))
     })
 }

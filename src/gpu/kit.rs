@@ -1,5 +1,6 @@
 //! What every pass of the renderer needs: layouts, samplers, and short ways to make things.
 
+use super::optics::{self, OPTICS};
 use super::program::Program;
 use super::{Gpu, Overlays, overlay, shader, tone};
 use crate::mapping::{Coverage, MappingId};
@@ -23,11 +24,8 @@ const SKY: &str = concat!(
     include_str!("../../shaders/screen.wgsl"),
     include_str!("../../shaders/sky.wgsl"),
 );
-/// What every program of the object has, after [`VIEWPORT`].
-const OBJECT: &str = concat!(
-    include_str!("../../shaders/optics.wgsl"),
-    include_str!("../../shaders/object/material.wgsl"),
-);
+/// The material's numbers, which every program of the object has.
+const MATERIAL: &str = include_str!("../../shaders/object/material.wgsl");
 /// A panel's pass on one mapping.
 const PANEL: &str = concat!(
     include_str!("../../shaders/screen.wgsl"),
@@ -98,8 +96,8 @@ pub fn object_source(id: MappingId, variant: Variant, program: Program) -> Strin
     let [r, g, b] = MARK_COLORS[1];
     text += &format!("const FAULT_COLOR = vec3f({r}, {g}, {b});\n");
     text += &format!("const MOST_BOUNCES: u32 = {MOST_BOUNCES}u;\n");
-    text += &super::optics::wgsl_constants();
-    viewport_source(id, variant, &(text + OBJECT + &program.source()))
+    text += &optics::wgsl_constants();
+    viewport_source(id, variant, &(text + OPTICS + MATERIAL + &program.source()))
 }
 
 /// Marks of total internal reflection and of what a fault makes, display values: Okabe and Ito's reddish purple and vermilion.

@@ -1,8 +1,24 @@
-//! The formulas' names in WGSL.
+//! What the shaders know of optics, written from Rust.
+
+use std::fmt::Write;
 
 use crate::optics::Formula;
 
-/// The name of a formula's constant.
+/// The optics at one interface: twin of `optics`.
+pub const OPTICS: &str = include_str!("../../shaders/optics.wgsl");
+
+/// The numbers that stand for the formulas in `shaders/optics.wgsl`: their places in [`Formula::ALL`].
+#[must_use]
+pub fn wgsl_constants() -> String {
+    let mut text = String::new();
+    for (place, formula) in Formula::ALL.into_iter().enumerate() {
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "const {}: u32 = {place}u;", formula_name(formula));
+    }
+    text
+}
+
+/// A formula's constant in the shaders.
 #[must_use]
 pub const fn formula_name(formula: Formula) -> &'static str {
     match formula {
@@ -15,13 +31,4 @@ pub const fn formula_name(formula: Formula) -> &'static str {
         Formula::PrintedSign => "FORMULA_PRINTED_SIGN",
         Formula::PrintedMix => "FORMULA_PRINTED_MIX",
     }
-}
-
-/// A constant for each formula: its place in [`Formula::ALL`].
-#[must_use]
-pub fn wgsl_constants() -> String {
-    let line = |(place, formula): (usize, &Formula)| {
-        format!("const {}: u32 = {place}u;\n", formula_name(*formula))
-    };
-    Formula::ALL.iter().enumerate().map(line).collect()
 }

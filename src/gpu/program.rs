@@ -206,6 +206,7 @@ impl Work {
             | Program::CoordinatesPerVertex
             | Program::Metal => (1, 0),
             Program::Dielectric(_) => (1, 1),
+            // The middle wavelength is looked up once more, for the level.
             Program::Glass(_) => (1, spectral),
             // The sky behind is the second.
             Program::Veil => (1, 1),

@@ -22,3 +22,4 @@ pub use material::Material;
 pub use reflectance::Formula;
 pub use reflection::reflect;
 pub use refraction::{Meeting, critical_angle_rad, meet, refract};
+pub use wavelengths::{Wavelength, wavelengths};

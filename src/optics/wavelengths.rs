@@ -1,49 +1,54 @@
-//! The wavelengths that a material is computed with.
+//! Which wavelengths a material's refraction looks up, and what each adds to the colour.
 
 use super::Material;
 use super::material::{Dispersion, Surface};
-use super::spectrum::lines;
+use super::spectrum::{lines, offset_etas};
 
-/// One refracted ray.
+/// One refracted ray of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wavelength {
-    /// Weights on linear sRGB red, green and blue.
+    /// Weights on linear sRGB red, green and blue; they sum to 1 over all rays, so that white stays white.
     pub rgb: [f32; 3],
-    /// n1/n2 of a ray from outside.
+    /// n1/n2 for a ray that comes from outside.
     pub eta: f32,
-    /// In micrometres.
+    /// In micrometres; for the offsets, which belong to no wavelength, what a screen's red, green and blue look like.
     pub wavelength_um: f32,
 }
 
-/// The wavelengths of a material, from the longest.
+/// Wavelengths that look like sRGB's red, green and blue: their dominant wavelengths to the nanometre (from the primaries of
+/// IEC 61966-2-1).
+const PRIMARIES_UM: [f32; 3] = [0.611, 0.549, 0.464];
+
+/// The refracted rays of a material, at least one and at most 64, from short waves to long ones. One ray without colour where the
+/// material does not part the colours.
 #[must_use]
 pub fn wavelengths(material: &Material) -> Vec<Wavelength> {
-    let one = |rgb, eta, wavelength_um| Wavelength {
-        rgb,
-        eta,
-        wavelength_um,
-    };
     if material.surface != Surface::Glass {
-        return vec![one([1.0; 3], material.eta(), 0.589_3)];
+        return vec![Wavelength {
+            rgb: [1.0; 3],
+            eta: material.eta(),
+            wavelength_um: PRIMARIES_UM[1],
+        }];
     }
-    let eta = material.eta();
-    let offsets = match material.dispersion {
-        Dispersion::Spectral => {
-            let line = |line: super::spectrum::Line| {
-                one(
-                    line.rgb.map(|c| c as f32),
-                    (1.0 / material.glass.index(line.wavelength_um)) as f32,
-                    line.wavelength_um as f32,
-                )
-            };
-            return lines(material.wavelengths).into_iter().map(line).collect();
-        }
-        Dispersion::Offsets => [0.02, 0.01, 0.0],
-        Dispersion::PrintedOffsets => [0.0, 0.01, 0.02],
-    };
-    vec![
-        one([1.0, 0.0, 0.0], eta + offsets[0], 0.65),
-        one([0.0, 1.0, 0.0], eta + offsets[1], 0.55),
-        one([0.0, 0.0, 1.0], eta + offsets[2], 0.45),
-    ]
+    if material.dispersion == Dispersion::Spectral {
+        return lines(material.wavelengths)
+            .into_iter()
+            .map(|line| Wavelength {
+                rgb: line.rgb.map(|weight| weight as f32),
+                eta: (1.0 / material.glass.index(line.wavelength_um)) as f32,
+                wavelength_um: line.wavelength_um as f32,
+            })
+            .collect();
+    }
+    let etas = offset_etas(material.eta(), material.dispersion);
+    let mut rays: Vec<_> = std::iter::zip(etas, PRIMARIES_UM)
+        .enumerate()
+        .map(|(channel, (eta, wavelength_um))| Wavelength {
+            rgb: std::array::from_fn(|c| if c == channel { 1.0 } else { 0.0 }),
+            eta,
+            wavelength_um,
+        })
+        .collect();
+    rays.reverse();
+    rays
 }

@@ -68,6 +68,21 @@ pub struct RayFrame {
     pub up: Vec3,
 }
 
+impl RayFrame {
+    /// The ray from the eye through `uv` in `[0, 1]^2`, v down; points beyond the screen are as good.
+    ///
+    /// No matrix is inverted: the direction is a sum of the screen's own vectors, so that its error stays at the
+    /// rounding of a unit vector, also for a narrow field of view.
+    #[must_use]
+    pub fn ray(&self, (u, v): (f32, f32)) -> Ray {
+        let dir = self.forward + (2.0 * u - 1.0) * self.right + (1.0 - 2.0 * v) * self.up;
+        Ray {
+            origin: self.eye,
+            dir: dir.try_normalize().unwrap_or(self.forward),
+        }
+    }
+}
+
 /// An eye that circles the origin and always looks at it.
 ///
 /// Plain data: any numbers may stand in the fields, and every method reads them through [`Camera::sanitized`].
@@ -227,18 +242,10 @@ impl Camera {
         }
     }
 
-    /// The ray from the eye through `uv` in `[0, 1]^2`, v down; points beyond the screen are as good.
-    ///
-    /// No matrix is inverted: the direction is a sum of the screen's own vectors, so that its error stays at the
-    /// rounding of a unit vector, also for a narrow field of view.
+    /// The ray from the eye through `uv`; see [`RayFrame::ray`].
     #[must_use]
-    pub fn ray(&self, (u, v): (f32, f32), aspect: f32) -> Ray {
-        let frame = self.ray_frame(aspect);
-        let dir = frame.forward + (2.0 * u - 1.0) * frame.right + (1.0 - 2.0 * v) * frame.up;
-        Ray {
-            origin: frame.eye,
-            dir: dir.try_normalize().unwrap_or(frame.forward),
-        }
+    pub fn ray(&self, uv: (f32, f32), aspect: f32) -> Ray {
+        self.ray_frame(aspect).ray(uv)
     }
 
     /// Where `point` of the world is seen; `None` when it is not in front of the eye. The result may lie outside

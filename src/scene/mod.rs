@@ -1,4 +1,4 @@
-//! Camera, objects and what the pointer hits.
+//! Camera, objects, what the pointer hits, and light on its way through an object.
 //!
 //! One world frame for all: left-handed, +x right, +y up, +z forward. Every object fits in the unit ball around the
 //! origin; the camera circles it. Nothing here knows of the GPU or of the window.
@@ -14,3 +14,4 @@ pub use camera::{Camera, Ray, RayFrame};
 pub use mesh::Mesh;
 pub use object::Object;
 pub use pick::{Hit, Target};
+pub use trace::{Escape, Escapes, Traced, trace, trace_view};

@@ -18,6 +18,8 @@ pub struct Hit {
     /// The unit outward normal there, interpolated from the vertices as the renderer does. Close to a silhouette it
     /// may point a little away from the viewer, as there.
     pub normal: Vec3,
+    /// The unit normal of the triangle itself, outwards by its winding.
+    pub face_normal: Vec3,
     /// From the ray's origin, in world units, positive.
     pub distance: f32,
 }
@@ -151,6 +153,11 @@ impl Target {
         &self.mesh
     }
 
+    /// Largest coordinate of any vertex, world units: the scale of rounding.
+    pub(super) fn reach(&self) -> f32 {
+        self.reach
+    }
+
     /// The first point that `ray` meets; `None` when it misses, is not finite or has no direction. The direction may
     /// have any length.
     ///
@@ -176,18 +183,15 @@ impl Target {
             }
             Some(sum)
         };
-        let face = || {
-            let [a, b, c] = crossing
-                .triangle
-                .map(|i| Vec3::from(self.mesh.positions[i as usize]).as_dvec3());
-            (b - a).cross(c - a).try_normalize()
-        };
+        let [a, b, c] = crossing
+            .triangle
+            .map(|i| Vec3::from(self.mesh.positions[i as usize]).as_dvec3());
+        let face = (b - a).cross(c - a).try_normalize();
+        let normal = blend(&self.mesh.normals).and_then(DVec3::try_normalize);
         Some(Hit {
             point: blend(&self.mesh.positions)?.as_vec3(),
-            normal: blend(&self.mesh.normals)
-                .and_then(DVec3::try_normalize)
-                .or_else(face)?
-                .as_vec3(),
+            normal: normal.or(face)?.as_vec3(),
+            face_normal: face.or(normal)?.as_vec3(),
             distance: crossing.distance as f32,
         })
     }
