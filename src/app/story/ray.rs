@@ -17,6 +17,7 @@ use crate::optics::material::{Material, Surface, Surfaces};
 use crate::optics::metal::Metal;
 use crate::optics::reflectance::{Shape, head_on, metal_reflectance};
 use crate::optics::reflection::reflect_as_printed;
+use crate::optics::spectrum::line_color;
 use crate::optics::wavelengths::{Wavelength, wavelengths};
 use crate::optics::{self, Formula, Meeting};
 use crate::scene::{Hit, Object, Target};
@@ -358,7 +359,7 @@ impl Told<'_> {
             color: if is_one {
                 REFRACTED
             } else {
-                hue(wavelength.rgb)
+                hue(wavelength.wavelength_um)
             },
             meeting: self.meeting(eta),
             dir: optics::refract(self.incident, self.normal, eta),
@@ -699,13 +700,8 @@ fn degrees_text(angle_rad: f64) -> String {
     format!("{:.3}°", angle_rad.to_degrees())
 }
 
-/// The colour of a wavelength at full brightness, from its weights on linear red, green and blue. What a screen cannot show is
-/// left out.
-fn hue([r, g, b]: [f32; 3]) -> Color32 {
-    let brightest = r.max(g).max(b);
-    if brightest <= 0.0 {
-        return Color32::WHITE;
-    }
-    let [r, g, b] = [r, g, b].map(|c| (c / brightest).max(0.0));
+/// The colour that stands for a wavelength.
+fn hue(wavelength_um: f32) -> Color32 {
+    let [r, g, b] = line_color(wavelength_um.into()).map(|c| c as f32);
     egui::Rgba::from_rgb(r, g, b).into()
 }
