@@ -1,6 +1,7 @@
 //! The ray story: one ray, step by step, from the eye to its lookups; or Hoff's sphere map, line by line.
 
 mod ray;
+mod refraction;
 mod sphere_map;
 mod steps;
 
@@ -81,7 +82,7 @@ fn kind_ui(ui: &mut Ui, model: &mut Model<'_>) {
 fn walk_ui(ui: &mut Ui, model: &mut Model<'_>, index: usize) {
     let story = model.state.story;
     let count = model.story.len();
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         for (name, key, forward) in [("Previous", ",", false), ("Next", ".", true)] {
             let action = walked(story, &model.story, forward);
             let button = egui::Button::new(name);
