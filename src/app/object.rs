@@ -85,8 +85,30 @@ struct PathsKey {
     bounces: u32,
 }
 
+/// Most bytes for the paths of one view: a picture of 3200 x 2400 pixels with two inner reflections.
+const MOST_PATHS_BYTES: u64 = 512 << 20;
+
 impl PathsKey {
+    /// Bytes that the paths take: four floats for each direction of each pixel.
+    fn bytes(&self) -> u64 {
+        let [width, height] = self.size_px.map(u64::from);
+        width * height * u64::from(self.bounces + 2) * 16
+    }
+
+    fn too_large(&self) -> String {
+        let [width, height] = self.size_px;
+        format!(
+            "tracing {width} x {height} pixels through both surfaces takes {} MB, the limit is {}; make the picture smaller or follow fewer inner reflections",
+            self.bytes() >> 20,
+            MOST_PATHS_BYTES >> 20
+        )
+    }
+
+    /// `None` when it is cancelled or too large.
     fn trace(&self, progress: &Progress) -> Option<Traced> {
+        if self.bytes() > MOST_PATHS_BYTES {
+            return None;
+        }
         trace_view(
             &self.target,
             &self.camera,
@@ -120,6 +142,8 @@ pub enum News {
     BodyFailed(String),
     /// A picture could not be opened: the state must name another.
     BallFailed(BallPicture, String),
+    /// The view is too large to be traced.
+    PathsFailed(String),
     /// Something to tell.
     Note(String),
 }
@@ -133,6 +157,7 @@ pub struct ObjectData {
     opening: Option<(BallPicture, Job<Result<BallPixels, String>>)>,
     paths: Vec<(PathsKey, Shared<Traced>)>,
     tracing: Option<(PathsKey, Job<Option<Traced>>)>,
+    untraceable: Option<PathsKey>,
 }
 
 struct Building {
@@ -175,6 +200,7 @@ impl ObjectData {
             opening: None,
             paths: Vec::new(),
             tracing: None,
+            untraceable: None,
         }
     }
 
@@ -264,6 +290,7 @@ impl ObjectData {
         self.tracing.take_if(|(key, _)| !wanted.contains(key));
         let missing = wanted
             .into_iter()
+            .filter(|key| self.untraceable.as_ref() != Some(key))
             .find(|key| self.paths.iter().all(|(held, _)| held != key));
         if let Some(key) = missing.filter(|_| self.tracing.is_none()) {
             let made = key.clone();
@@ -312,9 +339,8 @@ impl ObjectData {
             }
         }
         for key in self.wanted_paths(state, size_px) {
-            if self.paths.iter().all(|(held, _)| *held != key)
-                && let Some(traced) = key.trace(&progress)
-            {
+            if self.paths.iter().all(|(held, _)| *held != key) {
+                let traced = key.trace(&progress).ok_or_else(|| key.too_large())?;
                 self.paths.push((key, Shared::new(traced)));
             }
         }
@@ -358,7 +384,11 @@ impl ObjectData {
             match job.poll() {
                 Outcome::Running => self.tracing = Some((key, job)),
                 Outcome::Done(Some(traced)) => self.paths.push((key, Shared::new(traced))),
-                Outcome::Done(None) | Outcome::Failed => {}
+                // Too large: one surface is shown, and it is not tried again in this view.
+                Outcome::Done(None) | Outcome::Failed => {
+                    news.push(News::PathsFailed(key.too_large()));
+                    self.untraceable = Some(key);
+                }
             }
         }
         news

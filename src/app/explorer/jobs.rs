@@ -214,6 +214,7 @@ impl Explorer {
                         material.ball = BallPicture::default();
                     }
                 }
+                News::PathsFailed(why) => self.fail(why),
                 News::Note(note) => self.tell(note),
             }
         }
