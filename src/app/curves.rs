@@ -48,7 +48,7 @@ struct Row {
 
 /// Shows the curves in all the space there is.
 pub fn curves_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    egui::Frame::new().inner_margin(6.0).show(ui, |ui| {
+    theme::pane_frame(ui).show(ui, |ui| {
         let rows = rows(&model.state.material, &model.state.curves);
         let eta = eta(&model.state.material, &model.state.curves);
         let incidence = incidence(model);
@@ -195,8 +195,8 @@ fn header_ui(ui: &mut Ui, model: &mut Model<'_>, eta: Option<f64>) {
             }
         }
         ui.label(RichText::new(format!("η = {eta:.3}")).monospace());
-        ui.label(RichText::new(angles_text(eta)).small());
     });
+    ui.label(RichText::new(angles_text(eta)).small());
 }
 
 /// "Brewster's angle 56.31°, critical angle 41.81°".
@@ -229,7 +229,8 @@ fn plot_ui(
     let highest = heights.fold(1.0, f64::max);
     let top = highest * TOP;
     let plot = Plot::new("curves")
-        .width(width)
+        // The last number of the axis stands out by half its width.
+        .width(width - 14.0)
         .height(height)
         .allow_zoom(false)
         .allow_drag(false)
@@ -243,7 +244,12 @@ fn plot_ui(
         .x_grid_spacer(|_| marks(90.0, 15.0))
         .y_grid_spacer(move |_| marks(top, if top > 2.0 { 1.0 } else { 0.25 }))
         .x_axis_formatter(|mark, _| format!("{:.0}°", mark.value))
-        .y_axis_formatter(|mark, _| format!("{}", mark.value))
+        .y_axis_formatter(|mark, _| match mark.value {
+            // The corner belongs to the other axis.
+            0.0 => String::new(),
+            value => value.to_string(),
+        })
+        .grid_color(Color32::from_gray(70))
         .grid_spacing(8.0..=60.0)
         .label_formatter(|hover| match hover {
             HoverPosition::NearDataPoint {
@@ -260,16 +266,16 @@ fn plot_ui(
         plot.set_plot_bounds_x(0.0..=90.0);
         plot.set_plot_bounds_y(0.0..=top);
         let faint = Color32::from_gray(150);
-        let mut mark = |name: &str, angle_rad: f64, at: f64, color: Color32, width: f32| {
+        let mut mark = |name: &str, angle_rad: f64, [at, left_from]: [f64; 2], color: Color32| {
             let angle = angle_rad.to_degrees();
             plot.vline(
                 VLine::new(name, angle)
-                    .stroke(Stroke::new(width, color))
+                    .stroke(Stroke::new(1.0, color))
                     .style(LineStyle::Dashed { length: 4.0 })
                     .allow_hover(false),
             );
-            // On the side where there is room.
-            let (anchor, text) = if angle > 45.0 {
+            // The named angles at their right, the pointer's at its left, unless there is no room.
+            let (anchor, text) = if angle > left_from {
                 (Align2::RIGHT_CENTER, format!("{name} {angle:.1}° "))
             } else {
                 (Align2::LEFT_CENTER, format!(" {name} {angle:.1}°"))
@@ -282,13 +288,13 @@ fn plot_ui(
             );
         };
         if let Some(eta) = eta {
-            mark("Brewster", brewster_angle_rad(eta), 0.68, faint, 1.0);
+            mark("Brewster", brewster_angle_rad(eta), [0.68, 60.0], faint);
             if let Some(critical) = critical_angle_rad(eta) {
-                mark("critical", critical, 0.80, theme::TEXEL, 1.0);
+                mark("critical", critical, [0.8, 60.0], theme::TEXEL);
             }
         }
         if let Some(angle) = incidence_rad {
-            mark("θ", angle, 0.56, theme::PROBE, 1.5);
+            mark("θ", angle, [0.56, 20.0], theme::PROBE);
         }
         for (row, computed) in shown {
             plot.line(
@@ -314,20 +320,20 @@ fn marks(to: f64, step: f64) -> Vec<GridMark> {
 
 /// Each formula with its value at the angle of incidence and its largest error.
 fn table_ui(ui: &mut Ui, model: &mut Model<'_>, rows: &[Row], incidence_rad: Option<f64>) {
-    egui::ScrollArea::vertical()
+    egui::ScrollArea::both()
         .auto_shrink([false, false])
         .show(ui, |ui| {
             Grid::new("formulas")
                 .num_columns(4)
-                .spacing([10.0, 2.0])
+                .spacing([8.0, 1.0])
                 .show(ui, |ui| {
                     ui.label(RichText::new("formula").small());
                     let at = incidence_rad.map_or("point at the object".to_owned(), |angle| {
                         format!("at {:.1}°", angle.to_degrees())
                     });
                     ui.label(RichText::new(at).small());
-                    ui.label(RichText::new("largest error").small());
-                    ui.label(RichText::new("there").small());
+                    ui.label(RichText::new("worst error").small());
+                    ui.label(RichText::new("at").small());
                     ui.end_row();
                     for row in rows {
                         row_ui(ui, model, row, incidence_rad);
@@ -339,6 +345,8 @@ fn table_ui(ui: &mut Ui, model: &mut Model<'_>, rows: &[Row], incidence_rad: Opt
 
 fn row_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, incidence_rad: Option<f64>) {
     ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.spacing_mut().button_padding.x = 2.0;
         if let Some(formula) = row.formula {
             show_ui(ui, model, row, formula);
         }
@@ -346,14 +354,14 @@ fn row_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, incidence_rad: Option<f
         match row.formula {
             Some(formula) => choose_ui(ui, model, row, formula),
             None => {
-                ui.label(&row.name);
+                ui.label(RichText::new(&row.name).small());
             }
         }
     });
     if !row.shown {
         return;
     }
-    let mono = |text: String| RichText::new(text).monospace().size(11.5);
+    let mono = |text: String| RichText::new(text).monospace().size(11.0);
     let value = incidence_rad.map(|angle| format!("{:.4}", row.law.reflectance(angle)));
     ui.label(mono(value.unwrap_or_else(|| "–".to_owned())));
     if row.law.exact() == row.law {
@@ -387,7 +395,10 @@ fn show_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, formula: Formula) {
 fn choose_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, formula: Formula) {
     let material = &model.state.material;
     let response = ui
-        .selectable_label(material.formula == formula, &row.name)
+        .selectable_label(
+            material.formula == formula,
+            RichText::new(&row.name).small(),
+        )
         .on_hover_text("Click: the material reflects by this formula");
     if response.clicked() && material.formula != formula {
         model.push(Action::SetMaterial(Box::new(Material {
@@ -399,7 +410,7 @@ fn choose_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, formula: Formula) {
 
 /// A piece of the curve's line.
 fn swatch_ui(ui: &mut Ui, row: &Row) {
-    let (rect, _) = ui.allocate_exact_size(vec2(18.0, 10.0), Sense::hover());
+    let (rect, _) = ui.allocate_exact_size(vec2(16.0, 10.0), Sense::hover());
     let line = [rect.left_center(), rect.right_center()];
     let stroke = Stroke::new(row.width.min(3.0), row.color);
     let shapes = match row.style {

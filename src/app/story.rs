@@ -1,16 +1,18 @@
 //! The ray story: one ray, step by step, from the eye to its lookups; or Hoff's sphere map, line by line.
 
 mod ray;
+mod refraction;
 mod sphere_map;
 mod steps;
 
-use egui::{Grid, RichText, Slider, Ui};
+use egui::{Color32, Grid, RichText, Slider, Ui};
 
 pub use steps::{Arrow, StoryStep, incidence_rad, steps, vectors};
 
 use super::action::Action;
 use super::model::Model;
 use super::state::{AppState, StoryKind, StoryState};
+use super::theme;
 use crate::scene::Target;
 
 /// The steps while the pane is open: nothing is told to nobody.
@@ -36,7 +38,7 @@ pub fn walked(story: StoryState, steps: &[StoryStep], forward: bool) -> Option<A
 
 /// Shows the story in all the space there is.
 pub fn story_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    egui::Frame::new().inner_margin(6.0).show(ui, |ui| {
+    theme::pane_frame(ui).show(ui, |ui| {
         kind_ui(ui, model);
         let Some((index, step)) = model.story_step().map(|(i, step)| (i, step.clone())) else {
             ui.label("Point at the object in the viewport: the story is that of the ray through the pointer.");
@@ -80,7 +82,7 @@ fn kind_ui(ui: &mut Ui, model: &mut Model<'_>) {
 fn walk_ui(ui: &mut Ui, model: &mut Model<'_>, index: usize) {
     let story = model.state.story;
     let count = model.story.len();
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         for (name, key, forward) in [("Previous", ",", false), ("Next", ".", true)] {
             let action = walked(story, &model.story, forward);
             let button = egui::Button::new(name);
@@ -110,17 +112,7 @@ fn step_ui(ui: &mut Ui, model: &mut Model<'_>, step: &StoryStep) {
     ui.label(RichText::new(&step.title).heading().strong());
     ui.label(&step.text);
     ui.add_space(4.0);
-    Grid::new("numbers")
-        .num_columns(2)
-        .spacing([10.0, 3.0])
-        .striped(true)
-        .show(ui, |ui| {
-            for (label, value) in &step.numbers {
-                ui.label(label);
-                ui.add(egui::Label::new(RichText::new(value).monospace()).selectable(true));
-                ui.end_row();
-            }
-        });
+    numbers_ui(ui, &step.numbers);
     if model.state.story.kind == StoryKind::SphereMap {
         ui.add_space(4.0);
         if ui.button("Go to the singular direction").clicked() {
@@ -130,5 +122,34 @@ fn step_ui(ui: &mut Ui, model: &mut Model<'_>, step: &StoryStep) {
                 eye_ray: None,
             });
         }
+    }
+}
+
+/// Labels and values side by side, or one below the other where there is no room.
+fn numbers_ui(ui: &mut Ui, numbers: &[(String, String)]) {
+    const SIDE_BY_SIDE: f32 = 400.0;
+    let value_ui = |ui: &mut Ui, value: &str| {
+        let text = RichText::new(value).monospace();
+        ui.add(egui::Label::new(text).wrap().selectable(true));
+    };
+    if ui.available_width() >= SIDE_BY_SIDE {
+        Grid::new("numbers")
+            .num_columns(2)
+            .spacing([10.0, 3.0])
+            .striped(true)
+            .show(ui, |ui| {
+                for (label, value) in numbers {
+                    ui.label(label);
+                    value_ui(ui, value);
+                    ui.end_row();
+                }
+            });
+        return;
+    }
+    for (label, value) in numbers {
+        ui.horizontal_wrapped(|ui| {
+            ui.label(RichText::new(label).color(Color32::from_gray(170)));
+            value_ui(ui, value);
+        });
     }
 }

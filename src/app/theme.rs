@@ -25,6 +25,14 @@ pub const AXES: [Color32; 3] = [
 /// The lit row of the sign table.
 pub const LIT: Color32 = Color32::from_rgb(0, 92, 140);
 
+/// A pane that shows text: the pictures' ground, with a margin, over all the space there is.
+pub fn pane_frame(ui: &mut egui::Ui) -> egui::Frame {
+    let [r, g, b] = PICTURE_BACKGROUND;
+    let ground = Color32::from_rgb(r, g, b);
+    ui.painter().rect_filled(ui.max_rect(), 0.0, ground);
+    egui::Frame::new().inner_margin(6.0)
+}
+
 /// Sets fonts and colours of a fresh context.
 pub fn install(ctx: &egui::Context) {
     ctx.set_theme(egui::Theme::Dark);

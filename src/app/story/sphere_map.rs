@@ -194,8 +194,8 @@ fn singular_step(is_there: bool) -> StoryStep {
         title: "The singular direction".to_owned(),
         text: format!(
             "For r = (0, 0, −1), straight on behind the ball, m is 0 and s, t are 0/0: this one direction is the whole rim. The \
-             dots are {RIM_DIRECTIONS} directions {}° away from it.{here}",
-            number_text(RIM_ANGLE_RAD.to_degrees())
+             dots are {RIM_DIRECTIONS} directions {:.2}° away from it.{here}",
+            RIM_ANGLE_RAD.to_degrees()
         ),
         numbers: vec![
             row("r", vector_text(Dir::from_f64(VIEW))),
