@@ -288,7 +288,7 @@ fn plot_ui(
             );
         };
         if let Some(eta) = eta {
-            mark("Brewster", brewster_angle_rad(eta), [0.68, 60.0], faint);
+            mark("Brewster", brewster_angle_rad(eta), [0.3, 60.0], faint);
             if let Some(critical) = critical_angle_rad(eta) {
                 mark("critical", critical, [0.8, 60.0], theme::TEXEL);
             }
@@ -328,7 +328,7 @@ fn table_ui(ui: &mut Ui, model: &mut Model<'_>, rows: &[Row], incidence_rad: Opt
                 .spacing([8.0, 1.0])
                 .show(ui, |ui| {
                     ui.label(RichText::new("formula").small());
-                    let at = incidence_rad.map_or("point at the object".to_owned(), |angle| {
+                    let at = incidence_rad.map_or("at the pointer".to_owned(), |angle| {
                         format!("at {:.1}°", angle.to_degrees())
                     });
                     ui.label(RichText::new(at).small());

@@ -4,6 +4,8 @@ mod ray;
 mod refraction;
 mod sphere_map;
 mod steps;
+#[cfg(test)]
+mod tests;
 
 use egui::{Color32, Grid, RichText, Slider, Ui};
 
