@@ -16,6 +16,7 @@ use naga::Literal;
 use sixfold::gpu::{compute, kit, optics, shader, uniforms};
 use sixfold::mapping::{Domain, MappingId, ccm};
 use sixfold::math::{ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS};
+use sixfold::optics::Formula;
 
 /// Every pass of the app: name and whole text. A new pass is a new line here.
 fn passes() -> Vec<(String, String)> {
@@ -187,6 +188,25 @@ fn ids_and_constants_are_rusts() {
         let faults = unequal_constants(MappingId::Ccm, &pass.replace(from, to));
         assert!(!faults.is_empty(), "{to} was not noticed");
     }
+}
+
+/// The formulas whose number in this pass is not their place in Rust's list.
+fn unequal_formulas(pass: &str) -> Vec<&'static str> {
+    let found = wgsl::constants(&wgsl::parse(pass).unwrap());
+    let places = Formula::ALL.iter().zip(0..);
+    places
+        .map(|(formula, place)| (optics::formula_name(*formula), Literal::U32(place)))
+        .filter(|(name, place)| !found.contains(&((*name).to_owned(), *place)))
+        .map(|(name, _)| name)
+        .collect()
+}
+
+#[test]
+fn the_formulas_numbers_are_rusts() {
+    let pass = optics::GpuOptics::source();
+    assert_eq!(unequal_formulas(&pass), [""; 0]);
+    let changed = pass.replace("FORMULA_CG: u32 = 4u", "FORMULA_CG: u32 = 9u");
+    assert_eq!(unequal_formulas(&changed), ["FORMULA_CG"]);
 }
 
 #[test]
