@@ -2,10 +2,12 @@
 
 pub mod compute;
 pub mod context;
+mod dispatch;
 pub mod environment;
 pub mod frame;
 pub mod kit;
 pub mod map;
+pub mod optics;
 pub mod overlay;
 mod panel;
 mod plan;
@@ -23,6 +25,7 @@ pub use context::{Gpu, GpuError};
 pub use environment::{EnvironmentSource, EnvironmentTexture};
 pub use frame::{Frame, PanelFrame, ViewportFrame};
 pub use map::map_size;
+pub use optics::GpuOptics;
 pub use overlay::{GREAT_CIRCLE_COLORS, Overlays};
 pub use plan::Node;
 pub use readback::{MapPixels, RgbaPixels, TexelRead};

@@ -1,6 +1,7 @@
 //! Numbers: the number trait, stable angles, units in the last place, dual numbers, input points.
 
 mod arctan;
+mod double_word;
 mod dual;
 pub mod inputs;
 mod real;
@@ -10,6 +11,7 @@ mod vec3;
 pub use arctan::{
     ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS, atan_unit, sin_cos_turns,
 };
+pub use double_word::DoubleWord;
 pub use dual::Dual;
 pub use real::{Real, Textbook};
 pub use vec3::{Vec3, angle_rad, unit_in_plane};

@@ -32,17 +32,65 @@ impl Glass {
         }
     }
 
-    /// The index of refraction at a wavelength in micrometres (in air), 0.38 to 0.78.
+    /// The index of refraction at a wavelength in micrometres (in air, for diamond and water too). Beyond the ends of the visible
+    /// range, 0.38 and 0.78, it stays what it is there.
     #[must_use]
     pub fn index(self, wavelength_um: f64) -> f64 {
+        let (shortest, longest) = VISIBLE_UM;
+        // `max` and `min` take the other number for NaN, `clamp` does not.
+        let wavelength_um = wavelength_um.max(shortest).min(longest);
         let l2 = wavelength_um * wavelength_um;
-        // Schott's data sheet of N-BK7; the others follow.
-        let terms = [
-            (1.039_612_12, 0.006_000_698_67),
-            (0.231_792_344, 0.020_017_914_4),
-            (1.010_469_45, 103.560_653),
-        ];
-        let sum: f64 = terms.iter().map(|(b, c)| b * l2 / (l2 - c)).sum();
+        let sum: f64 = self
+            .sellmeier()
+            .iter()
+            .map(|(b, c)| b * l2 / (l2 - c))
+            .sum();
         (1.0 + sum).sqrt()
     }
+
+    /// Abbe's number: (n - 1) at the helium line d over the difference of n between the hydrogen lines F and C. Small where
+    /// colours part widely.
+    #[must_use]
+    pub fn abbe_number(self) -> f64 {
+        let spread = self.index(FRAUNHOFER_F_UM) - self.index(FRAUNHOFER_C_UM);
+        (self.index(FRAUNHOFER_D_UM) - 1.0) / spread
+    }
+
+    /// The terms (B, C) of Sellmeier's n^2 = 1 + sum of B l^2 / (l^2 - C), l and the root of C in micrometres.
+    const fn sellmeier(self) -> &'static [(f64, f64)] {
+        match self {
+            // Schott's data sheet, optical glass catalogue of 2017.
+            Self::Bk7 => &[
+                (1.039_612_12, 0.006_000_698_67),
+                (0.231_792_344, 0.020_017_914_4),
+                (1.010_469_45, 103.560_653),
+            ],
+            // The same.
+            Self::Sf10 => &[
+                (1.616_259_77, 0.012_753_455_9),
+                (0.259_229_334, 0.058_198_395_4),
+                (1.077_623_17, 116.607_68),
+            ],
+            // M. Daimon and A. Masumura, "Measurement of the refractive index of distilled water from the near-infrared
+            // region to the ultraviolet region", Appl. Opt. 46, 3811-3820 (2007).
+            Self::Water => &[
+                (0.568_402_756_5, 0.005_101_829_712),
+                (0.172_617_739_1, 0.018_211_539_36),
+                (0.020_861_895_78, 0.026_207_222_93),
+                (0.113_074_868_8, 10.697_927_21),
+            ],
+            // F. Peter, "Über Brechungsindizes und Absorptionskonstanten des Diamanten zwischen 644 und 226 mμ", Z. Phys.
+            // 15, 358-368 (1923); the two resonances lie at 0.175 and 0.106.
+            Self::Diamond => &[(0.3306, 0.175 * 0.175), (4.3356, 0.106 * 0.106)],
+        }
+    }
 }
+
+/// The shortest and the longest wavelength of [`Glass::index`], in micrometres.
+pub const VISIBLE_UM: (f64, f64) = (0.38, 0.78);
+/// The yellow line of helium, in micrometres; indices with a "d" are taken here.
+pub const FRAUNHOFER_D_UM: f64 = 0.587_561_8;
+/// The blue line of hydrogen, in micrometres.
+pub const FRAUNHOFER_F_UM: f64 = 0.486_132_7;
+/// The red line of hydrogen, in micrometres.
+pub const FRAUNHOFER_C_UM: f64 = 0.656_272_5;

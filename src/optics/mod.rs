@@ -10,12 +10,15 @@ pub mod ball;
 pub mod glass;
 pub mod material;
 pub mod metal;
+pub mod presets;
 pub mod reflectance;
 pub mod reflection;
 pub mod refraction;
 pub mod spectrum;
+pub mod wavelengths;
 
 pub use material::Material;
 pub use reflectance::Formula;
 pub use reflection::reflect;
 pub use refraction::{Meeting, critical_angle_rad, meet, refract};
+pub use wavelengths::{Wavelength, wavelengths};

@@ -90,18 +90,20 @@ impl Formula {
         matches!(self, Self::PrintedSign | Self::PrintedMix)
     }
 
-    /// The part of the light that is reflected. In [0, 1] but for [`Formula::PrintedSign`].
+    /// The part of the light that is reflected. In [0, 1] but for [`Formula::PrintedSign`]. Total internal reflection is known to
+    /// the exact formulas alone.
     pub fn reflectance<R: Real>(self, meeting: &Meeting<R>, shape: &Shape<R>) -> R {
         let cos = meeting.cos_incident;
         let f = head_on(meeting.eta);
+        let schlick = |change: R, power| f + (R::one() - f) * change.pow(power);
         match self {
             Self::Fresnel => (fresnel_s(meeting) + fresnel_p(meeting)) * R::half(),
             Self::FresnelS => fresnel_s(meeting),
             Self::FresnelP => fresnel_p(meeting),
-            Self::Schlick => f + (R::one() - f) * (R::one() - cos).pow(shape.exponent),
+            Self::Schlick => schlick(R::one() - cos, shape.exponent).clamp_unit(),
             Self::Cg => (shape.bias + shape.scale * (R::one() - cos).pow(shape.power)).clamp_unit(),
             Self::Simple => R::one() - cos.pow(shape.power),
-            Self::PrintedSign => f + (R::one() - f) * (R::one() + cos).pow(shape.power),
+            Self::PrintedSign => schlick(R::one() + cos, shape.power),
             Self::PrintedMix => f,
         }
     }
@@ -129,28 +131,48 @@ fn fresnel_p<R: Real>(meeting: &Meeting<R>) -> R {
     )
 }
 
-/// ((a - b)/(a + b))^2; 1 at total reflection and at grazing incidence, where it is 0/0 for eta = 1.
+/// ((a - b)/(a + b))^2; 1 at total reflection. Where both are 0 the ray grazes an interface between equals, that is none.
 fn ratio_squared<R: Real>(a: R, b: R, meeting: &Meeting<R>) -> R {
-    let sum = a + b;
-    if meeting.is_total() || !(sum > R::zero()) {
+    if meeting.is_total() {
         return R::one();
+    }
+    let sum = a + b;
+    if sum <= R::zero() {
+        return R::zero();
     }
     let ratio = (a - b) / sum;
     ratio * ratio
 }
 
-/// Reflectance of a metal of complex index n + i k (relative to the outside) for unpolarised light.
+/// Reflectance of a metal of complex index n + i k (relative to the outside) for unpolarised light, in [0, 1].
+///
+/// Born and Wolf, Principles of Optics, section 14.2, with a + i b = sqrt((n + i k)^2 - sin^2): the squares of (a - cos) and
+/// (a cos - sin^2) are formed after the differences, so that nothing cancels.
 pub fn metal_reflectance<R: Real>(cos_incident: R, n: R, k: R) -> R {
-    // a^2 + b^2 and a of the textbook form: see Born and Wolf, section 14.2.
-    let cos2 = cos_incident * cos_incident;
-    let sin2 = (R::one() - cos_incident) * (R::one() + cos_incident);
+    let cos = cos_incident;
+    let sin2 = (R::one() - cos) * (R::one() + cos);
     let d = n * n - k * k - sin2;
     let size = d.hypot(R::two() * n * k);
-    let a = ((size + d).max(R::zero()) * R::half()).sqrt();
-    let two_a_cos = R::two() * a * cos_incident;
-    let s = (size + cos2 - two_a_cos) / (size + cos2 + two_a_cos);
-    let t = size * cos2 + sin2 * sin2;
-    let u = two_a_cos * sin2;
-    let p = s * (t - u) / (t + u);
-    (s + p) * R::half()
+    let large = ((size + d.abs()) * R::half()).sqrt();
+    if large <= R::zero() && cos <= R::zero() {
+        // The ray grazes an interface between equals, that is none.
+        return R::zero();
+    }
+    let small = if large > R::zero() {
+        n * k / large
+    } else {
+        R::zero()
+    };
+    let (a, b) = if d < R::zero() {
+        (small, large)
+    } else {
+        (large, small)
+    };
+    let s = squares(a - cos, b) / squares(a + cos, b);
+    let p = s * squares(a * cos - sin2, b * cos) / squares(a * cos + sin2, b * cos);
+    ((s + p) * R::half()).clamp_unit()
+}
+
+fn squares<R: Real>(a: R, b: R) -> R {
+    a * a + b * b
 }

@@ -1,6 +1,6 @@
 //! Snell's law at one interface.
 
-use crate::math::{Real, Vec3};
+use crate::math::{DoubleWord, Real, Vec3};
 
 /// A ray at an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,13 +19,22 @@ pub struct Meeting<R> {
 impl<R: Real> Meeting<R> {
     /// From the cosine of the angle of incidence, in [0, 1].
     pub fn at_cosine(cos_incident: R, eta: R) -> Self {
-        let sin_squared = (R::one() - cos_incident) * (R::one() + cos_incident);
-        let k = R::one() - eta * eta * sin_squared;
+        Self::new(
+            eta,
+            cos_incident,
+            DoubleWord::product(cos_incident, cos_incident),
+        )
+    }
+
+    fn new(eta: R, cos_incident: R, cos_squared: DoubleWord<R>) -> Self {
+        // Near the critical angle and near eta = 1 the terms cancel, and the root then doubles the digits that were lost.
+        let eta_squared = DoubleWord::product(eta, eta);
+        let k = (DoubleWord::from(R::one()) + -eta_squared) + eta_squared * cos_squared;
         Self {
             eta,
             cos_incident,
-            k,
-            cos_refracted: k.max(R::zero()).sqrt(),
+            k: k.high,
+            cos_refracted: k.high.max(R::zero()).sqrt(),
         }
     }
 
@@ -35,18 +44,32 @@ impl<R: Real> Meeting<R> {
     }
 }
 
-/// How a ray meets an interface. `incident` and `normal` are unit; the normal is turned to face the ray.
+/// How a ray meets an interface. `incident` and `normal` are unit as well as their type can say it; what is missing is made
+/// up for. The normal is turned to face the ray.
 pub fn meet<R: Real>(incident: Vec3<R>, normal: Vec3<R>, eta: R) -> Meeting<R> {
-    Meeting::at_cosine(incident.dot(normal).abs().min(R::one()), eta)
+    meet_along(incident, normal, eta, DoubleWord::dot(incident, normal))
+}
+
+/// [`meet`], given the inner product of the two vectors.
+fn meet_along<R: Real>(
+    incident: Vec3<R>,
+    normal: Vec3<R>,
+    eta: R,
+    along: DoubleWord<R>,
+) -> Meeting<R> {
+    let lengths = DoubleWord::dot(incident, incident) * DoubleWord::dot(normal, normal);
+    let cos_incident = along.high.abs() / lengths.high.sqrt();
+    Meeting::new(eta, cos_incident.min(R::one()), along * along / lengths)
 }
 
 /// The refracted ray, unit length; `None` at total internal reflection.
 pub fn refract<R: Real>(incident: Vec3<R>, normal: Vec3<R>, eta: R) -> Option<Vec3<R>> {
-    let meeting = meet(incident, normal, eta);
+    let along = DoubleWord::dot(incident, normal);
+    let meeting = meet_along(incident, normal, eta, along);
     if meeting.is_total() {
         return None;
     }
-    let facing = if incident.dot(normal) > R::zero() {
+    let facing = if along.high > R::zero() {
         -normal
     } else {
         normal

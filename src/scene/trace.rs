@@ -145,7 +145,8 @@ fn onwards(target: &Target, hit: &Hit, dir: Vec3) -> Ray {
 
 /// Follows `ray`, coming from outside, through the object.
 ///
-/// - `eta` is the refractive index outside over that of the object; numbers that are not positive and finite count as 1.
+/// - `eta` is the refractive index outside over that of the object. Clamped to a thousandth and a thousand, far beyond any matter,
+///   where squares are still exact enough; numbers that are not positive and finite count as 1.
 /// - `bounces` inner reflections are followed, at most [`MAX_BOUNCES`]; what is inside after the last is lost.
 /// - A ray that misses goes on: one direction with weight 1. A ray without direction has none.
 /// - What leaves the object is not followed any further, also where it would meet the object again.
@@ -154,7 +155,7 @@ fn onwards(target: &Target, hit: &Hit, dir: Vec3) -> Ray {
 #[must_use]
 pub fn trace(target: &Target, ray: Ray, eta: f32, bounces: u32) -> Escapes {
     let eta = if eta.is_finite() && eta > 0.0 {
-        eta
+        eta.clamp(1e-3, 1e3)
     } else {
         1.0
     };
