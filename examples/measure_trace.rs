@@ -1,7 +1,7 @@
 //! How long light takes through glass: `cargo run --release --no-default-features --example measure_trace [WIDTHxHEIGHT]`.
 //!
-//! For each object the whole view with two inner reflections on all cores; on one core the same beside what each pixel hits first; and
-//! how many pixels see light that finds no way out of the mesh.
+//! For each object the whole view with two inner reflections on all cores; on one core the same beside what each pixel hits
+//! first; and how many pixels see light that finds no way out of the mesh.
 
 use std::time::Instant;
 
@@ -49,8 +49,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         };
         let astray = (0..pixels).filter(hit).filter(zero).count();
         eprintln!(
-            "{:13} view {whole:6.1} ms; on one thread {each:6.1} ms, {:.2} times the first hits alone ({first:6.1} ms); {:.0} % of pixels \
-             hit, {:.2} % of them see through an open part",
+            "{:13} view {whole:6.1} ms; on one thread {each:6.1} ms, {:.2} times the first hits alone ({first:6.1} ms); {:.0} % of \
+             pixels hit, {:.2} % of them see through an open part",
             object.name(),
             each / first,
             100.0 * hits as f64 / pixels as f64,

@@ -18,8 +18,8 @@ use sixfold::optics::reflectance::Shape;
 /// Inner reflections before the ray leaves.
 const BOUNCES: usize = 2;
 
-/// A pass with the words of the optics' one: what leaves stands for the mirrored ray and k, what stays for the refracted ray and the
-/// reflectance.
+/// A pass with the words of the optics' one: what leaves stands for the mirrored ray and k, what stays for the refracted
+/// ray and the reflectance.
 const PASS: &str = "
 @group(0) @binding(0) var<storage, read> given: array<array<vec4u, 4>>;
 @group(0) @binding(1) var<storage, read_write> found: array<array<vec4u, 3>>;
