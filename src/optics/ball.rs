@@ -417,7 +417,7 @@ mod tests {
     #[test]
     fn the_rainbow_stands_where_it_is_published() {
         let degrees = |index, bounces| rainbow_angle_rad(index, bounces).unwrap().to_degrees();
-        // J. A. Adam, The mathematical physics of rainbows and glories, Physics Reports 356 (2002), section 1: red 656 nm
+        // J. A. Adam, The mathematical physics of rainbows and glories, Physics Reports 356 (2002): red light of 656 nm
         // (n = 1.3318) turns by 137.75 degrees, violet 405 nm (n = 1.3435) by 139.42.
         for (index, turned) in [(1.3318, 137.75), (1.3435, 139.42)] {
             assert!(
