@@ -265,3 +265,19 @@ fn notes_tell_what_is_unusual() {
     let (plain, _) = good(open(Document::tetrahedron(U8).glb(), "here.glb"));
     assert!(!says(&plain, "not used") && !says(&plain, "left out"));
 }
+
+/// The most triangles that open. Run it by name, to measure time and memory.
+#[test]
+#[ignore = "20 s and 1.2 GB"]
+fn long_the_largest_model_opens() {
+    let text = sphere(2000, 1000, [0.0; 3], 1.0);
+    let start = std::time::Instant::now();
+    let (loaded, checked) = good(open(text, "here.obj"));
+    println!(
+        "{:.1} s: {}",
+        start.elapsed().as_secs_f64(),
+        loaded.notes[0]
+    );
+    assert_eq!(loaded.mesh.positions.len(), 2000 * 999 + 2);
+    assert!((checked.volume - 4.18879).abs() < 1e-3);
+}
