@@ -130,6 +130,53 @@ impl Arrangement {
         Some(Tree::new(id, root, tiles))
     }
 
+    /// True when the pane is somewhere in it.
+    pub fn holds(&self, pane: Pane) -> bool {
+        match self {
+            Self::Pane(held) => *held == pane,
+            Self::Tabs { children, .. } | Self::Grid { children, .. } => {
+                children.iter().any(|child| child.holds(pane))
+            }
+            Self::Row(parts) | Self::Column(parts) => parts.iter().any(|p| p.content.holds(pane)),
+        }
+    }
+
+    /// The same with `pane` put beside `neighbour`, wherever that is: right of it, a third as wide as both, or below it.
+    pub fn beside(self, neighbour: Pane, pane: Pane, is_below: bool) -> Self {
+        let put = |held: Self| {
+            let part = |share, content| Share { share, content };
+            if is_below {
+                Self::Column(vec![part(1.0, held), part(1.0, Self::Pane(pane))])
+            } else {
+                Self::Row(vec![part(2.0, held), part(1.0, Self::Pane(pane))])
+            }
+        };
+        let deeper = |children: Vec<Self>| -> Vec<Self> {
+            let child = |child: Self| child.beside(neighbour, pane, is_below);
+            children.into_iter().map(child).collect()
+        };
+        let parts = |parts: Vec<Share>| -> Vec<Share> {
+            let part = |part: Share| Share {
+                content: part.content.beside(neighbour, pane, is_below),
+                ..part
+            };
+            parts.into_iter().map(part).collect()
+        };
+        match self {
+            Self::Pane(held) if held == neighbour => put(self),
+            Self::Pane(_) => self,
+            // Tabs stay together: beside one of them is beside all.
+            Self::Tabs { .. } if self.holds(neighbour) => put(self),
+            Self::Tabs { .. } => self,
+            Self::Row(held) => Self::Row(parts(held)),
+            Self::Column(held) => Self::Column(parts(held)),
+            Self::Grid { columns, children } => Self::Grid {
+                columns,
+                children: deeper(children),
+            },
+        }
+    }
+
     fn insert(&self, tiles: &mut Tiles<Pane>, seen: &mut HashSet<Pane>) -> Option<TileId> {
         match self {
             Self::Pane(pane) => seen.insert(*pane).then(|| tiles.insert_pane(*pane)),
@@ -228,6 +275,36 @@ mod tests {
             Arrangement::of_tree(&read.to_tree(id()).unwrap()),
             Some(arrangement)
         );
+    }
+
+    #[test]
+    fn a_pane_is_put_beside_another() {
+        let two = Arrangement::Column(vec![
+            Share {
+                share: 2.0,
+                content: Arrangement::Pane(Pane::Viewport),
+            },
+            Share {
+                share: 1.0,
+                content: pane(MappingId::Ccm),
+            },
+        ]);
+        assert!(!two.holds(Pane::Story));
+        let three = two.beside(Pane::Viewport, Pane::Story, false);
+        let four = three.clone().beside(Pane::Story, Pane::Curves, true);
+        assert!(three.holds(Pane::Story) && !three.holds(Pane::Curves));
+        let Arrangement::Column(parts) = four else {
+            panic!("the column is gone")
+        };
+        let Arrangement::Row(row) = &parts[0].content else {
+            panic!("the story is not right of the viewport")
+        };
+        assert_eq!(row[0].content, Arrangement::Pane(Pane::Viewport));
+        let Arrangement::Column(column) = &row[1].content else {
+            panic!("the curves are not below the story")
+        };
+        assert_eq!(column[1].content, Arrangement::Pane(Pane::Curves));
+        assert_eq!(parts[1].content, pane(MappingId::Ccm));
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! The arrangement: the viewport and one panel a mapping as tiles that can be moved, hidden and maximised.
 
 use egui_tiles::{
-    Behavior, Container, LinearDir, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse,
+    Behavior, Container, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse,
 };
 
 use super::action::Action;
-use super::arrangement::Pane;
+use super::arrangement::{Arrangement, Pane};
 use super::model::Model;
 use super::state::{AppState, StoryState};
 use super::{curves, map_panel, story, viewport};
@@ -50,8 +50,7 @@ pub fn follow(tree: &mut Tree<Pane>, state: &AppState) {
     let maps = state.panels.iter().map(|panel| Pane::Map(panel.mapping));
     for pane in maps.chain([Pane::Curves, Pane::Story]) {
         match (state.is_open(pane), find(tree, pane)) {
-            (true, None) if matches!(pane, Pane::Map(_)) => insert(tree, pane),
-            (true, None) => insert_beside_viewport(tree, pane),
+            (true, None) => insert(tree, pane),
             (false, Some(id)) => {
                 tree.remove_recursively(id);
             }
@@ -64,8 +63,20 @@ fn find(tree: &Tree<Pane>, pane: Pane) -> Option<TileId> {
     tree.tiles.find_pane(&pane)
 }
 
-/// Puts a pane beside the last map, or below everything.
+/// Puts a map beside the last map, or below everything; what needs room to be read, beside the viewport.
 fn insert(tree: &mut Tree<Pane>, pane: Pane) {
+    if !matches!(pane, Pane::Map(_))
+        && let Some(there) = Arrangement::of_tree(tree)
+    {
+        let other = [Pane::Curves, Pane::Story]
+            .into_iter()
+            .find(|other| there.holds(*other));
+        let (neighbour, is_below) = other.map_or((Pane::Viewport, false), |other| (other, true));
+        if let Some(changed) = there.beside(neighbour, pane, is_below).to_tree(tree_id()) {
+            *tree = changed;
+            return;
+        }
+    }
     let id = tree.tiles.insert_pane(pane);
     let grids: Vec<TileId> = tree
         .tiles
@@ -77,42 +88,6 @@ fn insert(tree: &mut Tree<Pane>, pane: Pane) {
     match place {
         Some(container) => tree.move_tile_to_container(id, container, usize::MAX, true),
         None => tree.root = Some(id),
-    }
-}
-
-/// Puts a pane right of the viewport, whose ray it is about.
-fn insert_beside_viewport(tree: &mut Tree<Pane>, pane: Pane) {
-    let Some(viewport) = find(tree, Pane::Viewport) else {
-        return insert(tree, pane);
-    };
-    // The tabs around the viewport go along.
-    let is_tabs = |id: &TileId| {
-        matches!(
-            tree.tiles.get(*id),
-            Some(Tile::Container(Container::Tabs(_)))
-        )
-    };
-    let beside = tree
-        .tiles
-        .parent_of(viewport)
-        .filter(is_tabs)
-        .unwrap_or(viewport);
-    let new = tree.tiles.insert_pane(pane);
-    let parent = tree.tiles.parent_of(beside);
-    if let Some(Tile::Container(Container::Linear(row))) =
-        parent.and_then(|id| tree.tiles.get_mut(id))
-        && row.dir == LinearDir::Horizontal
-    {
-        row.add_child(new);
-        return;
-    }
-    let row = tree.tiles.insert_horizontal_tile(vec![beside, new]);
-    match parent.and_then(|id| tree.tiles.get_mut(id)) {
-        Some(Tile::Container(container)) => {
-            // It is there: its parent was asked for by it.
-            let _place = container.replace_child(beside, row);
-        }
-        Some(Tile::Pane(_)) | None => tree.root = Some(row),
     }
 }
 

@@ -279,7 +279,7 @@ static FIRST_PROBE: LazyLock<([f32; 3], EyeRay)> = LazyLock::new(|| {
         ..Camera::default()
     };
     let ray = eye.ray((0.5, 0.52), 1.0);
-    let (dir, _) = looked_up(&target_of(Object::Teapot), ray);
+    let dir = looked_up(&target_of(Object::Teapot), ray, &Material::default());
     (unit(dir.to_array()), ray.into())
 });
 

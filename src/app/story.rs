@@ -9,7 +9,9 @@ mod tests;
 
 use egui::{Color32, Grid, RichText, Slider, Ui};
 
-pub use steps::{Arrow, StoryStep, incidence_rad, steps, vectors};
+pub use steps::{
+    Arrow, StoryStep, dir_of, incidence_rad, point_of, refracted_vector, steps, vectors,
+};
 
 use super::action::Action;
 use super::model::Model;
@@ -99,7 +101,9 @@ fn walk_ui(ui: &mut Ui, model: &mut Model<'_>, index: usize) {
         }
         let label = ui.label(format!("step {} of {count}", index + 1));
         let mut step = index + 1;
-        ui.spacing_mut().slider_width = (ui.available_width() - 8.0).clamp(40.0, 240.0);
+        // What is left of this row, not the width of a row.
+        let left = ui.available_size_before_wrap().x - 8.0;
+        ui.spacing_mut().slider_width = left.clamp(40.0, 240.0);
         let slider = Slider::new(&mut step, 1..=count).show_value(false);
         if ui.add(slider).labelled_by(label.id).changed() {
             model.push(Action::SetStory(StoryState {

@@ -16,6 +16,8 @@ pub const VECTORS: [Color32; 3] = [
     Color32::from_rgb(86, 180, 233),
     Color32::from_rgb(0, 200, 140),
 ];
+/// The refracted vector: their reddish purple, a little lighter.
+pub const REFRACTED: Color32 = Color32::from_rgb(222, 140, 186);
 /// The x, y and z axes: the colours that such axes have everywhere, light enough for a dark ground.
 pub const AXES: [Color32; 3] = [
     Color32::from_rgb(255, 110, 90),

@@ -8,20 +8,22 @@ use super::marks::{arrow, beyond, edged_line, edged_text, footprint};
 use super::model::Model;
 use super::probe::texel_outline;
 use super::state::EyeRay;
-use super::story::{self, Arrow};
+use super::story::{self, Arrow, dir_of, point_of};
 use super::theme;
 use super::views::ViewKey;
 use crate::gpu::GREAT_CIRCLE_COLORS;
 use crate::mapping::MappingId;
 use crate::mapping::cube_face::GREAT_CIRCLES;
-use crate::math;
-use crate::optics;
-use crate::scene::{Camera, Hit, Ray, Target};
+use crate::optics::Material;
+use crate::scene::{Camera, Ray, Target};
 
 /// Radians that the camera turns for a drag over one point.
 const ORBIT_RAD_PER_POINT: f32 = 0.008;
 /// Points around the divider in which it can be grabbed.
 const DIVIDER_GRIP: f32 = 8.0;
+
+/// Half the space of an arrow's name, in points.
+const NAME_SPACE: egui::Vec2 = vec2(34.0, 9.0);
 
 /// Shows the viewport in all the space there is.
 pub fn viewport_ui(ui: &mut Ui, model: &mut Model<'_>) {
@@ -71,7 +73,10 @@ fn pointer(ui: &Ui, model: &mut Model<'_>, rect: Rect, response: &Response) {
     if wanted && rect.contains(pos) {
         let place = (pos - rect.min) / rect.size();
         let ray = model.state.camera.ray((place.x, place.y), aspect(rect));
-        let (dir, _) = looked_up(model.target, ray);
+        let state = model.state;
+        let is_right = state.is_divided() && place.x > state.divider;
+        let right = state.compare_material.as_ref().filter(|_| is_right);
+        let dir = looked_up(model.target, ray, right.unwrap_or(&state.material));
         model.push(Action::SetProbe {
             dir: dir.to_array(),
             eye_ray: Some(ray.into()),
@@ -82,17 +87,11 @@ fn pointer(ui: &Ui, model: &mut Model<'_>, rect: Rect, response: &Response) {
     }
 }
 
-/// The direction in which the map is asked along a ray from the eye: mirrored where the object is hit, else straight on.
-pub fn looked_up(target: &Target, ray: Ray) -> (Vec3, Option<Hit>) {
-    let hit = target.cast(ray);
-    let dir = hit.map_or(ray.dir, |hit| reflect(ray.dir, hit.normal));
-    (dir, hit)
-}
-
-/// The mirrored ray in the scene's numbers.
-fn reflect(incident: Vec3, normal: Vec3) -> Vec3 {
-    let [incident, normal] = [incident, normal].map(|v| math::Vec3::from(v.to_array()));
-    optics::reflect(incident, normal).to_array().into()
+/// The direction in which the map is asked along a ray from the eye: as the material says where the object is hit, else straight on.
+pub fn looked_up(target: &Target, ray: Ray, material: &Material) -> Vec3 {
+    target.cast(ray).map_or(ray.dir, |hit| {
+        point_of(material.looked_up(dir_of(ray.dir), dir_of(hit.normal)))
+    })
 }
 
 /// The divider between the two mappings; true while the pointer is on it.
@@ -166,7 +165,8 @@ fn paint_marks(ui: &Ui, model: &Model<'_>, rect: Rect) {
         && let Some(ray) = model.state.eye_ray.map(EyeRay::ray)
         && let Some(hit) = model.target.cast(ray)
     {
-        let arrows = story::vectors(ray, &hit);
+        let mut arrows = story::vectors(ray, &hit).to_vec();
+        arrows.extend(story::refracted_vector(ray, &hit, &model.state.material));
         paint_arrows(&painter, model.state.camera, rect, &arrows);
     }
     if overlays.probe {
@@ -265,6 +265,8 @@ fn paint_arrows(painter: &egui::Painter, camera: Camera, rect: Rect, arrows: &[A
         } else {
             arrow(painter, from, to, *color, "");
             let at = beyond(free, free - root, name);
+            // A name is read in whole also at the border, where its arrow may be cut.
+            let at = at.max(rect.min + NAME_SPACE).min(rect.max - NAME_SPACE);
             edged_text(painter, at, Align2::CENTER_CENTER, name, *color);
         }
     }

@@ -2,6 +2,7 @@
 
 pub mod compute;
 pub mod context;
+mod dispatch;
 pub mod environment;
 pub mod frame;
 pub mod kit;
@@ -27,6 +28,7 @@ pub use context::{Gpu, GpuError};
 pub use environment::{EnvironmentSource, EnvironmentTexture};
 pub use frame::{Body, Frame, ObjectFrame, PanelFrame, ViewportFrame};
 pub use map::map_size;
+pub use optics::GpuOptics;
 pub use overlay::{GREAT_CIRCLE_COLORS, Overlays};
 pub use plan::Node;
 pub use program::Program;

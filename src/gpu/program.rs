@@ -68,7 +68,7 @@ impl Program {
     #[must_use]
     pub fn new(material: &Material, paths: Paths) -> Self {
         let formula = material.formula;
-        let refracts = matches!(material.surface, Surface::Dielectric | Surface::Glass);
+        let refracts = material.refracts();
         let spectral = material.surface == Surface::Glass;
         let mirror = match material.shading {
             Shading::PerPixel => Self::Mirror {

@@ -106,7 +106,10 @@ fn decoded(data: &str) -> Result<Vec<u8>, MeshProblem> {
     if !head.ends_with(";base64") {
         return Err(MeshProblem::Unsupported {
             format: Format::Gltf,
-            what: format!("a data URI is {}, only base64 opens", quoted(head)),
+            what: format!(
+                "a data URI is {}, only base64 opens; export it as that or as a file",
+                quoted(head)
+            ),
         });
     }
     BASE64

@@ -5,9 +5,13 @@ use glam::{DVec3, Vec3};
 use super::error::MeshProblem;
 use super::raw::{Corner, Raw};
 
-/// A triangle whose height is at most this has no direction: its corners, within the unit ball, are rounded to f32, whose
-/// spacing just below 1 is half of this.
-const THINNEST: f64 = 1.0 / (1 << 23) as f64;
+/// Positions are rounded to multiples of this, the spacing of f32 just below 1: within the unit ball that is as good as f32
+/// gives everywhere, and corners that differ by rounding only (the poles of a sphere, where sin 180 degrees is 1e-16)
+/// become one.
+const SPACING: f64 = 1.0 / (1 << 24) as f64;
+
+/// A triangle whose height is at most this has no direction: rounding moves its corners by up to half of it.
+const THINNEST: f64 = 2.0 * SPACING;
 
 /// The positions in the world's left-handed frame, centred and scaled; those of no triangle may lie anywhere. Triangles
 /// without area are taken out of `raw`.
@@ -51,10 +55,13 @@ fn fitted(positions: &[DVec3], triangles: &[[Corner; 3]]) -> Option<Vec<Vec3>> {
     let radius = corners()
         .map(|position| relative(position).length())
         .fold(0.0, f64::max);
+    let rounded = |x: f64| (x / SPACING).round() * SPACING;
     // The one place where right-handed becomes left-handed: z changes its sign (and `Surface::welded` the winding).
     let world = |position: DVec3| relative(position) / radius * DVec3::new(1.0, 1.0, -1.0);
     // Adding zero makes negative zeros positive, so that equal positions have equal bits.
-    let points = positions.iter().map(|&p| world(p).as_vec3() + Vec3::ZERO);
+    let points = positions
+        .iter()
+        .map(|&p| world(p).map(rounded).as_vec3() + Vec3::ZERO);
     Some(points.collect())
 }
 

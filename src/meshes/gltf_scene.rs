@@ -52,7 +52,7 @@ pub(super) fn parse(bytes: &[u8], path: &Path, progress: &Progress) -> Result<Ra
     if !root.asset.version.starts_with("2.") {
         let version = quoted(&root.asset.version);
         return Err(unsupported(format!(
-            "its version is {version}, only 2 opens"
+            "its version is {version}, only 2 opens; export it as glTF 2.0"
         )));
     }
     let is_harmless = |name: &str| HARMLESS.iter().any(|known| name.starts_with(known));
@@ -98,7 +98,7 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), MeshProblem> {
     let version = word(bytes, 4).ok_or_else(cut_off)?;
     if version != 2 {
         return Err(unsupported(format!(
-            "its version is {version}, only 2 opens"
+            "its version is {version}, only 2 opens; export it as glTF 2.0"
         )));
     }
     let length = word(bytes, 8).ok_or_else(cut_off)? as usize;

@@ -79,7 +79,7 @@ impl Glass {
                 (0.020_861_895_78, 0.026_207_222_93),
                 (0.113_074_868_8, 10.697_927_21),
             ],
-            // F. Peter, "Ueber Brechungsindizes und Absorptionskonstanten des Diamanten zwischen 644 und 226 mu", Z. Phys.
+            // F. Peter, "Über Brechungsindizes und Absorptionskonstanten des Diamanten zwischen 644 und 226 mμ", Z. Phys.
             // 15, 358-368 (1923); the two resonances lie at 0.175 and 0.106.
             Self::Diamond => &[(0.3306, 0.175 * 0.175), (4.3356, 0.106 * 0.106)],
         }

@@ -5,6 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::glass::Glass;
 use super::metal::Metal;
 use super::reflectance::{Formula, Shape};
+use super::reflection::{reflect, reflect_as_printed};
+use super::refraction::refract;
+use crate::math::{Real, Vec3};
 
 /// What the surface does with light.
 #[derive(
@@ -314,11 +317,34 @@ impl Material {
         }
     }
 
+    /// The direction in which the map is asked at a point of the surface, where the view asks in several the first one:
+    /// refracted for the refracted light alone, else mirrored. All unit.
+    #[must_use]
+    pub fn looked_up<R: Real>(&self, incident: Vec3<R>, normal: Vec3<R>) -> Vec3<R> {
+        if self.view == View::Refraction {
+            let eta = R::from_f64(f64::from(self.eta()));
+            if let Some(refracted) = refract(incident, normal, eta) {
+                return refracted;
+            }
+        }
+        if self.printed_reflection && self.surface == Surface::Mirror {
+            reflect_as_printed(incident, normal)
+        } else {
+            reflect(incident, normal)
+        }
+    }
+
+    /// True when light goes into the body.
+    #[must_use]
+    pub fn refracts(&self) -> bool {
+        matches!(self.surface, Surface::Dielectric | Surface::Glass)
+    }
+
     /// What it is in a few words, for a label beside a picture of it.
     #[must_use]
     pub fn title(&self) -> String {
         let formula = self.formula.name();
-        let refracts = matches!(self.surface, Surface::Dielectric | Surface::Glass);
+        let refracts = self.refracts();
         match self.view {
             View::Whole => match self.surface {
                 Surface::Mirror if self.printed_reflection => "mirror, the paper's sign".to_owned(),
@@ -351,8 +377,7 @@ impl Material {
     /// True when light is followed through the body's second surface.
     #[must_use]
     pub fn is_through(&self) -> bool {
-        let refracts = matches!(self.surface, Surface::Dielectric | Surface::Glass);
         self.view == View::SurfaceDifference
-            || (self.view == View::Whole && refracts && self.surfaces == Surfaces::Both)
+            || (self.view == View::Whole && self.refracts() && self.surfaces == Surfaces::Both)
     }
 }

@@ -7,7 +7,7 @@ use super::{ray, sphere_map};
 use crate::app::state::{AppState, StoryKind};
 use crate::app::theme;
 use crate::math;
-use crate::optics;
+use crate::optics::{self, Material};
 use crate::scene::{Hit, Ray, Target};
 
 /// A direction of the world in f64, unit length.
@@ -88,6 +88,15 @@ impl Arrow {
             arrives: true,
         }
     }
+}
+
+/// The refracted vector where a ray meets the object, if the material lets light in there.
+#[must_use]
+pub fn refracted_vector(ray: Ray, hit: &Hit, material: &Material) -> Option<Arrow> {
+    let eta = f64::from(material.eta());
+    let dir = optics::refract(dir_of(ray.dir), dir_of(hit.normal), eta)?;
+    let arrow = Arrow::from_point(hit.point, point_of(dir), "refracted", theme::REFRACTED);
+    material.refracts().then_some(arrow)
 }
 
 /// The incident, normal and reflected vectors where a ray meets the object.
