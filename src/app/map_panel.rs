@@ -40,7 +40,7 @@ pub fn map_panel_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
     if model.state.overlays.probe {
         paint_probe(&painter, model, mapping, &window);
     }
-    if let Some((_, step)) = model.story_step() {
+    if let Some(step) = model.painted_step() {
         paint_story(&painter, step, mapping, &window);
     }
 }

@@ -8,7 +8,7 @@ use crate::scene::Target;
 
 use super::command::Command;
 use super::history::History;
-use super::state::AppState;
+use super::state::{AppState, Overlays};
 use super::story::StoryStep;
 use super::views::{ViewKey, Views};
 use crate::gpu::Gpu;
@@ -94,6 +94,12 @@ impl Model<'_> {
         let last = self.story.len().checked_sub(1)?;
         let index = self.state.story.step.min(last);
         Some((index, self.story.get(index)?))
+    }
+
+    /// The step whose arrows and marks lie over the pictures; none where a picture is wanted bare.
+    pub fn painted_step(&self) -> Option<&StoryStep> {
+        let is_bare = self.state.overlays == Overlays::NONE;
+        self.story_step().filter(|_| !is_bare).map(|(_, step)| step)
     }
 
     /// Size in texels of the charts of a mapping.

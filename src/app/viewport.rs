@@ -159,7 +159,7 @@ fn paint_marks(ui: &Ui, model: &Model<'_>, rect: Rect) {
     if overlays.axes {
         paint_axes(&painter, model.state.camera, rect);
     }
-    if let Some((_, step)) = model.story_step() {
+    if let Some(step) = model.painted_step() {
         paint_arrows(&painter, model.state.camera, rect, &step.arrows);
     } else if overlays.vectors
         && let Some(ray) = model.state.eye_ray.map(EyeRay::ray)

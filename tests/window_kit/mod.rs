@@ -1,0 +1,96 @@
+//! The window on a software adapter, for the tests that look at it by role and label.
+
+#![allow(dead_code)] // each test file uses some
+#![expect(
+    clippy::unwrap_used,
+    reason = "helpers of tests say what they expect by unwrapping"
+)]
+
+use std::time::{Duration, Instant};
+
+use egui_kittest::kittest::Queryable;
+use egui_kittest::{Harness, HarnessBuilder};
+use sixfold::app::command::Command;
+use sixfold::app::state::AppState;
+use sixfold::app::{Lost, Window};
+use sixfold::gpu::context;
+use sixfold::imaging::Environment;
+use sixfold::mapping::MappingId;
+use sixfold::math::Vec3;
+
+pub type Ui = Harness<'static, Window>;
+
+/// A window of 1280 x 800 on a software adapter; no adapter is a failure.
+pub fn open(state: AppState) -> Ui {
+    open_sized(state, 1280.0, 800.0)
+}
+
+pub fn open_sized(state: AppState, width: f32, height: f32) -> Ui {
+    let mut ui = open_unsettled(state, width, height, Lost::default());
+    settle(&mut ui);
+    ui
+}
+
+pub fn open_unsettled(state: AppState, width: f32, height: f32, lost: Lost) -> Ui {
+    let mut setup = egui_kittest::wgpu::default_wgpu_setup();
+    if let egui_wgpu::WgpuSetup::CreateNew(new) = &mut setup {
+        new.device_descriptor = std::sync::Arc::new(context::device_descriptor);
+    }
+    HarnessBuilder::default()
+        .with_size([width, height])
+        .wgpu_setup(setup)
+        .build_eframe(|creation| Window::new(creation, state, lost).unwrap())
+}
+
+/// Small maps: what is tested here does not depend on their size.
+pub fn small() -> AppState {
+    AppState {
+        texel_budget: 6 * 64 * 64,
+        environment: Environment::DirectionColor,
+        ..AppState::default()
+    }
+}
+
+/// Steps until no job runs and no map is missing.
+pub fn settle(ui: &mut Ui) {
+    let start = Instant::now();
+    ui.step();
+    while ui.state().explorer().is_busy() {
+        assert!(
+            start.elapsed() < Duration::from_secs(120),
+            "the window does not come to rest"
+        );
+        std::thread::sleep(Duration::from_millis(5));
+        ui.step();
+    }
+    ui.run_steps(4);
+}
+
+pub fn run(ui: &mut Ui, command: impl Into<Command>) {
+    let ctx = ui.ctx.clone();
+    ui.state_mut().explorer_mut().run(&ctx, command.into());
+    settle(ui);
+}
+
+pub fn probe(ui: &Ui) -> Vec3<f64> {
+    ui.state().explorer().state().probe_f64()
+}
+
+/// The rectangle on the screen of a panel's picture.
+pub fn panel_rect(ui: &Ui, mapping: MappingId) -> egui::Rect {
+    ui.get_by_label(&format!("Panel: {}", mapping.info().name))
+        .rect()
+}
+
+/// Where a direction lies on the screen in a mapping's panel.
+pub fn place(ui: &Ui, mapping: MappingId, dir: Vec3<f64>) -> egui::Pos2 {
+    let info = mapping.info();
+    let view = ui.state().explorer().state().panel(mapping);
+    let aspect = info.layout.picture_aspect(info.aspect) as f32;
+    let window = sixfold::app::panel_view::PanelWindow::new(panel_rect(ui, mapping), &view, aspect);
+    window.screen_from_picture(
+        info.layout
+            .picture_from_chart(mapping.forward(dir).unwrap())
+            .unwrap(),
+    )
+}
