@@ -197,14 +197,6 @@ fn panels_ui(ui: &mut Ui, model: &mut Model<'_>) {
             model.push(Action::SetPanelOpen(mapping, open));
         }
     }
-    let mut curves = model.state.curves_open;
-    if ui.checkbox(&mut curves, "Reflectance curves").changed() {
-        model.push(Action::SetCurvesOpen(curves));
-    }
-    let mut story = model.state.story;
-    if ui.checkbox(&mut story.open, "Ray story").changed() {
-        model.push(Action::SetStory(story));
-    }
     if ui.button("Arrange as at first").clicked() {
         model.push(Command::ResetArrangement);
     }
