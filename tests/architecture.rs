@@ -23,7 +23,7 @@ const LAYERS: [(&str, &[&str]); 9] = [
 ];
 
 /// Outside crates that stay behind one layer's door, and the layers that may name them.
-const FENCED_CRATES: [(&str, &[&str]); 18] = [
+const FENCED_CRATES: [(&str, &[&str]); 17] = [
     ("wgpu", &["gpu", "app"]),
     ("bytemuck", &["gpu"]),
     ("pollster", &["gpu"]),
@@ -37,7 +37,6 @@ const FENCED_CRATES: [(&str, &[&str]); 18] = [
     ("image", &["imaging"]),
     ("exr", &["imaging"]),
     ("gltf", &["meshes"]),
-    ("tobj", &["meshes"]),
     ("base64", &["meshes"]),
     ("png", &["imaging"]),
     ("half", &["imaging", "gpu"]),

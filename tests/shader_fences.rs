@@ -223,6 +223,25 @@ fn ids_and_constants_are_rusts() {
     }
 }
 
+/// The formulas whose number in this pass is not their place in Rust's list.
+fn unequal_formulas(pass: &str) -> Vec<&'static str> {
+    let found = wgsl::constants(&wgsl::parse(pass).unwrap());
+    let places = Formula::ALL.iter().zip(0..);
+    places
+        .map(|(formula, place)| (optics::formula_name(*formula), Literal::U32(place)))
+        .filter(|(name, place)| !found.contains(&((*name).to_owned(), *place)))
+        .map(|(name, _)| name)
+        .collect()
+}
+
+#[test]
+fn the_formulas_numbers_are_rusts() {
+    let pass = optics::GpuOptics::source();
+    assert_eq!(unequal_formulas(&pass), [""; 0]);
+    let changed = pass.replace("FORMULA_CG: u32 = 4u", "FORMULA_CG: u32 = 9u");
+    assert_eq!(unequal_formulas(&changed), ["FORMULA_CG"]);
+}
+
 #[test]
 fn the_polynomials_are_rusts() {
     let module = wgsl::parse(&shader::plain("")).unwrap();

@@ -96,7 +96,7 @@ impl Figure {
             Self::ReflectionRefraction => "Notes, Figure 12: reflection | refraction",
             Self::Discriminant => "Notes, Figure 13: k",
             Self::Mixed => "Notes, Figure 14: reflection and refraction",
-            Self::Dispersion => "Notes, Figure 15: chromatic dispersion",
+            Self::Dispersion => "Notes, Figure 15: chromatic dispersion | its refraction",
             Self::PrintedMix => "Fault R2: the constant mix | by Schlick",
             Self::PrintedSign => "Fault R1: 1 + cos | 1 − cos",
             Self::PrintedDispersion => "Fault R5: blue bent least | bent most",
@@ -153,7 +153,14 @@ impl Figure {
             ),
             Self::Discriminant => (Object::Teapot, looked_at(View::Discriminant), None),
             Self::Mixed => (Object::Teapot, dielectric, None),
-            Self::Dispersion => (Object::Teapot, glass, None),
+            Self::Dispersion => {
+                // Most of the light is reflected: the fringes are seen in the refracted light alone.
+                let refracted = Material {
+                    view: View::Refraction,
+                    ..glass.clone()
+                };
+                (Object::Teapot, glass, Some(refracted))
+            }
             Self::PrintedMix => {
                 let printed = Material {
                     formula: Formula::PrintedMix,
@@ -169,6 +176,10 @@ impl Figure {
                 (Object::Sphere, printed, Some(looked_at(View::Reflectance)))
             }
             Self::PrintedDispersion => {
+                let glass = Material {
+                    view: View::Refraction,
+                    ..glass
+                };
                 let printed = Material {
                     dispersion: Dispersion::PrintedOffsets,
                     ..glass.clone()

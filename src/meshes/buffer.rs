@@ -8,9 +8,9 @@ use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use gltf::json;
 
-use super::error::{MeshProblem, quoted};
+use super::error::{MeshProblem, damaged_gltf as damaged, quoted};
 use super::{Format, MOST_FILE_BYTES};
-use crate::imaging::{Progress, ReadProblem, read_whole};
+use crate::imaging::{Progress, ReadProblem, Stage, read_whole};
 
 /// Exporters write the padding or leave it.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -94,6 +94,7 @@ impl<'a> Buffers<'a> {
             other => other.into(),
         })?;
         self.left.set(most - bytes.len() as u64);
+        self.progress.enter(Stage::Decoding);
         Ok(bytes)
     }
 }
@@ -179,11 +180,4 @@ fn percent_decoded(uri: &str) -> Option<String> {
         }
     }
     String::from_utf8(bytes).ok()
-}
-
-fn damaged(reason: String) -> MeshProblem {
-    MeshProblem::Damaged {
-        format: Format::Gltf,
-        reason,
-    }
 }

@@ -5,9 +5,8 @@ use gltf::json::Index;
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::validation::Checked;
 
-use super::Format;
 use super::buffer::Buffers;
-use super::error::{MeshProblem, judge};
+use super::error::{MeshProblem, damaged_gltf as damaged, judge};
 
 /// A document with its bytes.
 pub(super) struct Source<'a> {
@@ -192,12 +191,5 @@ fn number(bytes: &[u8], component: ComponentType, normalized: bool) -> f64 {
         (value / largest).max(-1.0)
     } else {
         value
-    }
-}
-
-fn damaged(reason: String) -> MeshProblem {
-    MeshProblem::Damaged {
-        format: Format::Gltf,
-        reason,
     }
 }

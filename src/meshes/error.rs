@@ -109,6 +109,14 @@ impl From<ReadProblem> for MeshProblem {
     }
 }
 
+/// What a glTF file does that its format forbids.
+pub(super) fn damaged_gltf(reason: String) -> MeshProblem {
+    MeshProblem::Damaged {
+        format: Format::Gltf,
+        reason,
+    }
+}
+
 /// Fails when there are more than `limit`.
 pub(super) fn judge(what: &'static str, count: u64, limit: u64) -> Result<(), MeshProblem> {
     if count > limit {

@@ -13,7 +13,7 @@ use gltf::json::validation::Checked;
 
 use super::buffer::Buffers;
 use super::element::Source;
-use super::error::{MeshProblem, judge, quoted, stop_if_cancelled};
+use super::error::{MeshProblem, damaged_gltf as damaged, judge, quoted, stop_if_cancelled};
 use super::raw::{Corner, Raw};
 use super::{Format, MOST_TRIANGLES, MOST_VERTICES, counted};
 use crate::imaging::Progress;
@@ -326,13 +326,6 @@ fn unused(root: &json::Root) -> Vec<String> {
         return Vec::new();
     }
     vec![format!("not used: {}", names.join(", "))]
-}
-
-fn damaged(reason: String) -> MeshProblem {
-    MeshProblem::Damaged {
-        format: Format::Gltf,
-        reason,
-    }
 }
 
 fn unsupported(what: String) -> MeshProblem {

@@ -1,8 +1,6 @@
 //! Wavefront OBJ (Alias|Wavefront, *Advanced Visualizer Manual*, appendix B1): `v`, `vn` and `f`; of `o` and `g` the number.
 //!
-//! Own code. A parser that makes one vertex of each (v, vt, vn) and joins `l` to the faces needs as much checking before
-//! and mending after as reading these three lines takes, and knows no line numbers to report. Nothing but the text is read:
-//! `mtllib`, `map_*` and `call` open no file.
+//! Own code (ARCHITECTURE.md says why). Nothing but the text is read: `mtllib` and `call` open no file.
 
 use glam::{DVec3, Vec3};
 

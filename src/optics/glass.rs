@@ -32,7 +32,7 @@ impl Glass {
         }
     }
 
-    /// The index of refraction at a wavelength in micrometres (in air, for diamond and water too). Beyond the ends of the visible
+    /// The index of refraction over that of air at a wavelength in micrometres. Beyond the ends of the visible
     /// range, 0.38 and 0.78, it stays what it is there.
     #[must_use]
     pub fn index(self, wavelength_um: f64) -> f64 {
@@ -45,7 +45,7 @@ impl Glass {
             .iter()
             .map(|(b, c)| b * l2 / (l2 - c))
             .sum();
-        (1.0 + sum).sqrt()
+        (1.0 + sum).sqrt() / self.measured_against()
     }
 
     /// Abbe's number: (n - 1) at the helium line d over the difference of n between the hydrogen lines F and C. Small where
@@ -54,6 +54,16 @@ impl Glass {
     pub fn abbe_number(self) -> f64 {
         let spread = self.index(FRAUNHOFER_F_UM) - self.index(FRAUNHOFER_C_UM);
         (self.index(FRAUNHOFER_D_UM) - 1.0) / spread
+    }
+
+    /// The index of air over that of what the terms were measured against.
+    const fn measured_against(self) -> f64 {
+        match self {
+            Self::Bk7 | Self::Sf10 | Self::Diamond => 1.0,
+            // Vacuum; air at 20 degrees is 1.000272 in the middle of the visible range and 3e-6 about it (Ciddor, "Refractive
+            // index of air", Appl. Opt. 35, 1566-1573 (1996)).
+            Self::Water => 1.000_272,
+        }
     }
 
     /// The terms (B, C) of Sellmeier's n^2 = 1 + sum of B l^2 / (l^2 - C), l and the root of C in micrometres.

@@ -40,7 +40,7 @@ fn surface(surface: Surface) -> Material {
     }
 }
 
-/// A body of this index at the sodium line: water 1.333 at 20 degrees (Daimon and Masumura 2007), ice 1.31 (Warren and
+/// A body of this index at the sodium line: water 1.333 at 20 degrees (Daimon and Masumura 2007, in air), ice 1.31 (Warren and
 /// Brandt 2008).
 fn dielectric(index: f32) -> Material {
     Material {

@@ -1,7 +1,7 @@
 //! From wavelengths to colour.
 
 use super::glass::VISIBLE_UM;
-use super::material::Dispersion;
+use super::material::{Dispersion, WAVELENGTHS_RANGE};
 
 /// One wavelength's part in a colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,14 +13,17 @@ pub struct Line {
     pub rgb: [f64; 3],
 }
 
-/// `count` wavelengths spread over the visible range, from short to long, each with its weights; `count` is at least 1.
+/// `count` wavelengths spread over the visible range, from short to long, each with its weights; the nearest count of
+/// [`WAVELENGTHS_RANGE`] is taken.
 ///
 /// The range of 0.40 to 0.70 is cut into equal bands, and what lies beyond goes to the outer ones. A line has the weights of its
 /// whole band, so that few lines make colours too: three are about blue, green and red. A single one is grey, at the sodium
 /// line where indices are quoted.
 #[must_use]
 pub fn lines(count: u32) -> Vec<Line> {
-    if count <= 1 {
+    let (fewest, most) = WAVELENGTHS_RANGE;
+    let count = count.clamp(fewest, most);
+    if count == 1 {
         return vec![Line {
             wavelength_um: SODIUM_UM,
             rgb: [1.0; 3],

@@ -62,8 +62,8 @@ impl Object {
         self.mesh_at(FULL_DENSITY)
     }
 
-    /// The surface with coarser triangles, still a closed body of the same size: `density` from 1 to [`FULL_DENSITY`] (others are
-    /// clamped) is in proportion to the quads along a side.
+    /// The surface with coarser triangles, still a closed body of the same size: `density` from 1 to [`FULL_DENSITY`]
+    /// (others are clamped) is in proportion to the quads along a side.
     #[must_use]
     pub fn mesh_at(self, density: u32) -> Mesh {
         let steps = |full: u32, least: u32| steps_at(density, full, least);

@@ -181,8 +181,9 @@ fn patches(lid_widening: f64) -> Vec<Patch> {
     all
 }
 
-/// Centre of the bounding box, and the factor that brings the farthest point to the unit sphere. Those of the full mesh, so that
-/// a coarse one keeps its place; its own points count only where they lie between those of the full one and reach farther.
+/// Centre of the bounding box, and the factor that brings the farthest point to the unit sphere. Those of the full mesh, so
+/// that a coarse one keeps its place; its own points count only where they lie between those of the full one and reach
+/// farther.
 fn fit(patches: &[Patch], steps: u32) -> (DVec3, f64) {
     let points = |steps: u32| {
         let grid = move || (0..=steps).flat_map(move |j| (0..=steps).map(move |i| (i, j)));

@@ -1,14 +1,15 @@
 //! Light through a transparent object of any shape: both surfaces, by tracing.
 //!
-//! At each crossing of the surface the ray is bent by the normal interpolated from the vertices, as the renderer shades, so that a
-//! mesh looks as smooth as it is drawn. Where that normal would send light through to the wrong side of the triangle, the
-//! triangle's own normal takes its place.
+//! At each crossing of the surface the ray is bent by the normal interpolated from the vertices, as the renderer shades, so
+//! that a mesh looks as smooth as it is drawn. Where that normal would send light through to the wrong side of the
+//! triangle, the triangle's own normal takes its place.
 //!
-//! Light is unpolarised at every crossing: the plane of incidence changes from one to the next, and with it what s and p mean. On a
-//! sphere, where it does not, [`ball_paths`](crate::optics::ball::ball_paths) is exact; a mesh differs from it in weights by that.
+//! Light is unpolarised at every crossing: the plane of incidence changes from one to the next, and with it what s and p
+//! mean. On a sphere, where it does not, [`ball_paths`](crate::optics::ball::ball_paths) is exact; a mesh differs from it
+//! in weights by that.
 //!
-//! Parts that overlap (the teapot's handle runs into its body) are one piece of glass: inside, a surface is only crossed when its
-//! last part is left. Where a part is open, a ray that finds no way out goes straight on.
+//! Parts that overlap (the teapot's handle runs into its body) are one piece of glass: inside, a surface is only crossed
+//! when its last part is left. Where a part is open, a ray that finds no way out goes straight on.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -125,9 +126,10 @@ fn against(normal: Vec3, dir: Vec3) -> Vec3 {
 
 /// The ray on from the surface at `hit`, begun a step away from the triangle so as not to meet it again.
 ///
-/// The point is rounded to f32 and the next crossing is found to a few roundings of the size of the mesh: both are far below 16
-/// units of f32 at the mesh's reach, which is the margin of the boxes too. The step leads along the ray, which stays where it is;
-/// but a ray within a degree (1/64) of the surface would go too far in that, and is lifted along the normal instead.
+/// The point is rounded to f32 and the next crossing is found to a few roundings of the size of the mesh: both are far
+/// below 16 units of f32 at the mesh's reach, which is the margin of the boxes too. The step leads along the ray, which
+/// stays where it is; but a ray within a degree (1/64) of the surface would go too far in that, and is lifted along the
+/// normal instead.
 fn onwards(target: &Target, hit: &Hit, dir: Vec3) -> Ray {
     let height = 16.0 * f32::EPSILON * target.reach();
     let side = -against(hit.face_normal, dir);
@@ -145,7 +147,8 @@ fn onwards(target: &Target, hit: &Hit, dir: Vec3) -> Ray {
 
 /// Follows `ray`, coming from outside, through the object.
 ///
-/// - `eta` is the refractive index outside over that of the object; numbers that are not positive and finite count as 1.
+/// - `eta` is the refractive index outside over that of the object. It is clamped to a thousandth and a thousand, far beyond
+///   any matter, so that squares stay finite; numbers that are not positive and finite count as 1.
 /// - `bounces` inner reflections are followed, at most [`MAX_BOUNCES`]; what is inside after the last is lost.
 /// - A ray that misses goes on: one direction with weight 1. A ray without direction has none.
 /// - What leaves the object is not followed any further, also where it would meet the object again.
@@ -154,7 +157,7 @@ fn onwards(target: &Target, hit: &Hit, dir: Vec3) -> Ray {
 #[must_use]
 pub fn trace(target: &Target, ray: Ray, eta: f32, bounces: u32) -> Escapes {
     let eta = if eta.is_finite() && eta > 0.0 {
-        eta
+        eta.clamp(1e-3, 1e3)
     } else {
         1.0
     };
@@ -215,15 +218,16 @@ pub struct Traced {
     pub size: [u32; 2],
     /// As many as directions a pixel: 2 + the inner reflections.
     pub layers: u32,
-    /// Layer by layer, in a layer row by row from the top: unit direction and weight. Layer 0 is the outer reflection, layer
-    /// 1 + m what leaves after m inner reflections. Where the ray misses, layer 0 is the ray itself with weight 1. Unused places are zero.
+    /// Layer by layer, in a layer row by row from the top: unit direction and weight. Layer 0 is the outer reflection,
+    /// layer 1 + m what leaves after m inner reflections. Where the ray misses, layer 0 is the ray itself with weight 1.
+    /// Unused places are zero.
     pub dirs: Vec<[f32; 4]>,
 }
 
 /// Traces every pixel of a view on all cores. `eta` and `bounces` as for [`trace`].
 ///
-/// `stop` is asked after each row, from several threads, with the part that is done in [0, 1]; true cancels. `None` when cancelled or
-/// when the picture does not fit in memory.
+/// `stop` is asked after each row, from several threads, with the part that is done in [0, 1]; true cancels. `None` when
+/// cancelled or when the picture does not fit in memory.
 #[must_use]
 pub fn trace_view(
     target: &Target,

@@ -121,10 +121,11 @@ fn a_round_model_becomes_smooth() {
         loaded.notes
     );
     assert!(!says(&loaded, "open") && checked.volume > 4.1);
-    // Observed: 0.0045 rad. A flat face would be off by up to 0.09.
+    // Observed: 0.0027 rad.
     let worst = worst_angle(&loaded);
-    assert!(worst < 0.006 && worst > 0.006 / 4.0, "{worst}");
-    assert!((1.0 - checked.worst_cosine).sqrt() > 0.03, "flat normals");
+    assert!(worst < 0.0035 && worst > 0.0035 / 4.0, "{worst}");
+    // Control: the faces' own normals are off by up to 0.092 rad.
+    assert!(checked.worst_cosine.acos() > 0.09);
 }
 
 #[test]
@@ -264,4 +265,20 @@ fn notes_tell_what_is_unusual() {
     assert!(says(&loaded, "not used: 2 materials") && says(&loaded, "left out: 1 primitive"));
     let (plain, _) = good(open(Document::tetrahedron(U8).glb(), "here.glb"));
     assert!(!says(&plain, "not used") && !says(&plain, "left out"));
+}
+
+/// The most triangles that open. Run it by name, to measure time and memory.
+#[test]
+#[ignore = "20 s and 1.2 GB"]
+fn long_the_largest_model_opens() {
+    let text = sphere(2000, 1000, [0.0; 3], 1.0);
+    let start = std::time::Instant::now();
+    let (loaded, checked) = good(open(text, "here.obj"));
+    println!(
+        "{:.1} s: {}",
+        start.elapsed().as_secs_f64(),
+        loaded.notes[0]
+    );
+    assert_eq!(loaded.mesh.positions.len(), 2000 * 999 + 2);
+    assert!((checked.volume - 4.18879).abs() < 1e-3);
 }

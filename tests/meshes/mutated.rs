@@ -14,15 +14,15 @@ fn next(state: &mut u64) -> u64 {
 fn replace_number(bytes: &mut Vec<u8>, state: &mut u64) {
     const NUMBERS: [&str; 10] = [
         "0",
-        "-1",
+        "1",
         "2",
+        "3",
         "5",
+        "12",
+        "-1",
         "1e39",
-        "-0.5",
-        "65535",
         "4294967295",
         "4611686018427387904",
-        "nan",
     ];
     let start = (next(state) % bytes.len() as u64) as usize;
     let Some(start) = (start..bytes.len()).find(|&at| bytes[at].is_ascii_digit()) else {
@@ -32,6 +32,17 @@ fn replace_number(bytes: &mut Vec<u8>, state: &mut u64) {
     let end = start + digits.count();
     let number = NUMBERS[(next(state) % NUMBERS.len() as u64) as usize];
     bytes.splice(start..end, number.bytes());
+}
+
+/// Makes the lengths of the file and of its text right again, after the text has grown.
+fn repair_glb(bytes: &mut [u8], grown: i64) {
+    for at in [8, 12] {
+        let Some(place) = bytes.get_mut(at..at + 4) else {
+            return;
+        };
+        let length = u32::from_le_bytes((&*place).try_into().unwrap());
+        place.copy_from_slice(&((i64::from(length) + grown) as u32).to_le_bytes());
+    }
 }
 
 fn seeds() -> [(&'static str, Vec<u8>); 3] {
@@ -70,15 +81,23 @@ fn mutated_models_never_panic() {
         let (mut state, mut opened, mut refused) = (0x9E37_79B9_7F4A_7C15, 0, 0);
         for round in 0..rounds {
             let mut bytes = whole.clone();
-            for _ in 0..=next(&mut state) % 4 {
+            // Every other round keeps the text readable, so that damage reaches what stands behind it.
+            let is_gentle = round % 2 == 1;
+            let damages = 1 + next(&mut state) % if is_gentle { 2 } else { 4 };
+            for _ in 0..damages {
                 let at = (next(&mut state) % bytes.len() as u64) as usize;
                 match next(&mut state) % 5 {
+                    _ if is_gentle => replace_number(&mut bytes, &mut state),
                     0 => bytes[at] = next(&mut state) as u8,
                     1 => bytes[at] ^= 1 << (next(&mut state) % 8),
                     2 => bytes[at] = [0, 1, 0x7f, 0x80, 0xff][(next(&mut state) % 5) as usize],
                     3 => drop(bytes.remove(at)),
                     _ => replace_number(&mut bytes, &mut state),
                 }
+            }
+            if is_gentle && name.ends_with("glb") {
+                let grown = bytes.len() as i64 - whole.len() as i64;
+                repair_glb(&mut bytes, grown);
             }
             match open(bytes, name) {
                 Ok(loaded) => {
@@ -96,9 +115,10 @@ fn mutated_models_never_panic() {
                 }
             }
         }
+        println!("{name}: {rounds} rounds, {opened} opened, {refused} refused");
         // Both happen, or the mutations test nothing.
         assert!(
-            opened > rounds / 50 && refused > rounds / 50,
+            opened > rounds / 20 && refused > rounds / 20,
             "{name}: {opened} opened, {refused} refused"
         );
     }
