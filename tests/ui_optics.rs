@@ -18,7 +18,7 @@ use sixfold::math::Vec3;
 use sixfold::optics::material::{Material, Surface};
 use sixfold::optics::{Formula, critical_angle_rad};
 use sixfold::scene::Object;
-use window_kit::{Ui, open, open_sized, place, run, settle, small};
+use window_kit::{Ui, open_sized, place, run, settle, small};
 
 /// Both panes open on a glassy ball that is met in (0.6, 0, -0.8), seen from the side.
 fn scene(kind: StoryKind, step: usize) -> AppState {
@@ -32,6 +32,9 @@ fn scene(kind: StoryKind, step: usize) -> AppState {
     });
     state.probe = [0.96, 0.0, -0.28];
     state.probe_follows = false;
+    // Room for all of both panes.
+    state.controls_open = false;
+    state.inspector.open = false;
     state.curves_open = true;
     state.story = StoryState {
         open: true,
@@ -39,6 +42,10 @@ fn scene(kind: StoryKind, step: usize) -> AppState {
         step,
     };
     state
+}
+
+fn open(state: AppState) -> Ui {
+    open_sized(state, 1440.0, 1200.0)
 }
 
 fn state(ui: &Ui) -> &AppState {
@@ -71,7 +78,11 @@ fn around(at: egui::Pos2, radius: f32) -> egui::Rect {
 
 #[test]
 fn the_panes_open_from_the_menu_and_close_again() {
-    let mut ui = open(small());
+    // The controls have the same checkboxes.
+    let mut ui = open(AppState {
+        controls_open: false,
+        ..small()
+    });
     for (name, pane, content) in [
         ("Reflectance curves", Pane::Curves, "Brewster's angle"),
         ("Ray story", Pane::Story, "step 1 of 5"),
@@ -175,7 +186,7 @@ fn every_panel_marks_what_the_step_looks_up() {
 fn the_viewport_shows_the_steps_arrows() {
     let mut ui = open(scene(StoryKind::Ray, 5));
     let view = ui.get_by_label("The viewport").rect();
-    let purple = egui::Color32::from_rgb(204, 121, 167);
+    let purple = theme::REFRACTED;
     assert_eq!(count(&mut ui, view, purple), 0);
     click(&mut ui, "Next");
     ui.get_by_label("The refracted ray");
@@ -238,7 +249,9 @@ fn the_curves_mark_the_critical_angle_and_follow_the_pointer() {
 
 #[test]
 fn a_curve_is_computed_when_it_is_drawn_and_a_row_chooses_the_formula() {
-    let mut ui = open(scene(StoryKind::Ray, 0));
+    let mut state_at_first = scene(StoryKind::Ray, 0);
+    state_at_first.story.open = false;
+    let mut ui = open(state_at_first);
     // Largest errors: Schlick's alone is shown.
     let errors = |ui: &Ui| {
         let rows = ui.query_all_by_label_contains("°").count();
@@ -294,7 +307,7 @@ fn the_panes_are_still_and_bear_any_size() {
         assert_eq!(ui.state().explorer().messages(), []);
     }
     // Alone in a small window, as in a corner of a large one.
-    for (pane, label) in [(Pane::Curves, "Draw Schlick"), (Pane::Story, "Next")] {
+    for (pane, label) in [(Pane::Curves, "Draw Fresnel, s"), (Pane::Story, "Next")] {
         let mut state = scene(StoryKind::Ray, 4);
         state.maximised = Some(pane);
         state.controls_open = false;

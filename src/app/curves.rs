@@ -6,7 +6,7 @@ use std::sync::Arc;
 use egui::cache::{ComputerMut, FrameCache};
 use egui::{Align2, Color32, Grid, RichText, Sense, Stroke, Ui, vec2};
 use egui_plot::{
-    GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Text, VLine,
+    AxisHints, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Text, VLine,
 };
 
 use super::action::Action;
@@ -27,6 +27,15 @@ const TOP: f64 = 1.05;
 const WIDE: f32 = 640.0;
 /// Width of the table there.
 const TABLE_WIDTH: f32 = 310.0;
+/// The angle under the pointer.
+const POINTER: &str = "θ";
+/// Room for a marked angle's name, and for the numbers at the plot's left, in points.
+const NAME_WIDTH: f64 = 78.0;
+const AXIS_WIDTH: f64 = 40.0;
+/// Height of a row of the table.
+const ROW_HEIGHT: f32 = 21.0;
+/// Below this height curves cannot be told apart.
+const LOWEST_PLOT: f32 = 130.0;
 /// Red, green and blue of a metal: Okabe and Ito's vermilion, bluish green and sky blue.
 const CHANNELS: [(&str, Color32); 3] = [
     ("red", Color32::from_rgb(235, 110, 40)),
@@ -67,10 +76,14 @@ pub fn curves_ui(ui: &mut Ui, model: &mut Model<'_>) {
                 ui.vertical(|ui| table_ui(ui, model, &rows, incidence));
             });
         } else {
-            // The table takes what it needs, but leaves the plot its half.
-            let table = (22.0 * (rows.len() + 1) as f32).min(0.5 * size.y);
-            plot_ui(ui, &rows, eta, incidence, size.x, size.y - table - 6.0);
-            table_ui(ui, model, &rows, incidence);
+            // One below the other. Where both have no room, one scrolls: a flat plot could not be read.
+            let table = ROW_HEIGHT * (rows.len() + 1) as f32;
+            let height = (size.y - table - 6.0).max(LOWEST_PLOT.min(size.y));
+            let scroll = egui::ScrollArea::vertical().auto_shrink([false, false]);
+            scroll.show(ui, |ui| {
+                plot_ui(ui, &rows, eta, incidence, size.x, height);
+                table_ui(ui, model, &rows, incidence);
+            });
         }
     });
 }
@@ -194,7 +207,7 @@ fn header_ui(ui: &mut Ui, model: &mut Model<'_>, eta: Option<f64>) {
                 }));
             }
         }
-        ui.label(RichText::new(format!("η = {eta:.3}")).monospace());
+        ui.label(RichText::new(format!("η\u{a0}=\u{a0}{eta:.3}")).monospace());
     });
     ui.label(RichText::new(angles_text(eta)).small());
 }
@@ -243,7 +256,11 @@ fn plot_ui(
         .default_x_bounds(0.0, 90.0)
         .x_grid_spacer(|_| marks(90.0, 15.0))
         .y_grid_spacer(move |_| marks(top, if top > 2.0 { 1.0 } else { 0.25 }))
-        .x_axis_formatter(|mark, _| format!("{:.0}°", mark.value))
+        .custom_x_axes(vec![
+            AxisHints::new_x()
+                .formatter(|mark, _| format!("{:.0}°", mark.value))
+                .label_spacing(34.0..=44.0),
+        ])
         .y_axis_formatter(|mark, _| match mark.value {
             // The corner belongs to the other axis.
             0.0 => String::new(),
@@ -266,7 +283,7 @@ fn plot_ui(
         plot.set_plot_bounds_x(0.0..=90.0);
         plot.set_plot_bounds_y(0.0..=top);
         let faint = Color32::from_gray(150);
-        let mut mark = |name: &str, angle_rad: f64, [at, left_from]: [f64; 2], color: Color32| {
+        let mut mark = |name: &str, angle_rad: f64, at: f64, color: Color32| {
             let angle = angle_rad.to_degrees();
             plot.vline(
                 VLine::new(name, angle)
@@ -275,10 +292,17 @@ fn plot_ui(
                     .allow_hover(false),
             );
             // The named angles at their right, the pointer's at its left, unless there is no room.
-            let (anchor, text) = if angle > left_from {
-                (Align2::RIGHT_CENTER, format!("{name} {angle:.1}° "))
+            let left = angle / 90.0 * f64::from(width);
+            let right = f64::from(width) - left;
+            let is_right = if name == POINTER {
+                left < NAME_WIDTH
             } else {
+                right > NAME_WIDTH + AXIS_WIDTH
+            };
+            let (anchor, text) = if is_right {
                 (Align2::LEFT_CENTER, format!(" {name} {angle:.1}°"))
+            } else {
+                (Align2::RIGHT_CENTER, format!("{name} {angle:.1}° "))
             };
             let text = RichText::new(text).color(color);
             plot.text(
@@ -288,13 +312,13 @@ fn plot_ui(
             );
         };
         if let Some(eta) = eta {
-            mark("Brewster", brewster_angle_rad(eta), [0.3, 60.0], faint);
+            mark("Brewster", brewster_angle_rad(eta), 0.3, faint);
             if let Some(critical) = critical_angle_rad(eta) {
-                mark("critical", critical, [0.8, 60.0], theme::TEXEL);
+                mark("critical", critical, 0.8, theme::TEXEL);
             }
         }
         if let Some(angle) = incidence_rad {
-            mark("θ", angle, [0.56, 20.0], theme::PROBE);
+            mark(POINTER, angle, 0.56, theme::PROBE);
         }
         for (row, computed) in shown {
             plot.line(
@@ -320,27 +344,25 @@ fn marks(to: f64, step: f64) -> Vec<GridMark> {
 
 /// Each formula with its value at the angle of incidence and its largest error.
 fn table_ui(ui: &mut Ui, model: &mut Model<'_>, rows: &[Row], incidence_rad: Option<f64>) {
-    egui::ScrollArea::both()
-        .auto_shrink([false, false])
-        .show(ui, |ui| {
-            Grid::new("formulas")
-                .num_columns(4)
-                .spacing([8.0, 1.0])
-                .show(ui, |ui| {
-                    ui.label(RichText::new("formula").small());
-                    let at = incidence_rad.map_or("at the pointer".to_owned(), |angle| {
-                        format!("at {:.1}°", angle.to_degrees())
-                    });
-                    ui.label(RichText::new(at).small());
-                    ui.label(RichText::new("worst error").small());
-                    ui.label(RichText::new("at").small());
-                    ui.end_row();
-                    for row in rows {
-                        row_ui(ui, model, row, incidence_rad);
-                        ui.end_row();
-                    }
+    egui::ScrollArea::horizontal().show(ui, |ui| {
+        Grid::new("formulas")
+            .num_columns(4)
+            .spacing([8.0, 1.0])
+            .show(ui, |ui| {
+                ui.label(RichText::new("formula").small());
+                let at = incidence_rad.map_or("at the pointer".to_owned(), |angle| {
+                    format!("at {:.1}°", angle.to_degrees())
                 });
-        });
+                ui.label(RichText::new(at).small());
+                ui.label(RichText::new("worst error").small());
+                ui.label(RichText::new("at").small());
+                ui.end_row();
+                for row in rows {
+                    row_ui(ui, model, row, incidence_rad);
+                    ui.end_row();
+                }
+            });
+    });
 }
 
 fn row_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, incidence_rad: Option<f64>) {

@@ -101,9 +101,13 @@ fn walk_ui(ui: &mut Ui, model: &mut Model<'_>, index: usize) {
         }
         let label = ui.label(format!("step {} of {count}", index + 1));
         let mut step = index + 1;
-        // What is left of this row, not the width of a row.
-        let left = ui.available_size_before_wrap().x - 8.0;
-        ui.spacing_mut().slider_width = left.clamp(40.0, 240.0);
+        // What is left of this row, not the width of a row; a row of its own where that is too little.
+        let mut left = ui.available_size_before_wrap().x;
+        if left < 70.0 {
+            ui.end_row();
+            left = ui.available_width();
+        }
+        ui.spacing_mut().slider_width = (left - 8.0).clamp(10.0, 240.0);
         let slider = Slider::new(&mut step, 1..=count).show_value(false);
         if ui.add(slider).labelled_by(label.id).changed() {
             model.push(Action::SetStory(StoryState {

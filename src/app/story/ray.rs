@@ -1,12 +1,12 @@
 //! One ray from the eye to its lookups, through what the material does with it.
 
-use egui::Color32;
 use glam::Vec3;
 
 use super::steps::{
     Arrow, Dir, Mark, StoryStep, dir_of, incidence_rad, number_text, row, vector_text, vectors,
 };
 use crate::app::state::AppState;
+use crate::app::theme;
 use crate::mapping::MappingId;
 use crate::optics::material::Surface;
 use crate::optics::metal::Metal;
@@ -15,8 +15,6 @@ use crate::optics::reflection::reflect_as_printed;
 use crate::optics::{self, Meeting};
 use crate::scene::{Hit, Ray, Target};
 
-/// A refracted ray that has no colour of its own, and the sky behind a veil: Okabe and Ito's reddish purple.
-pub(super) const REFRACTED: Color32 = Color32::from_rgb(204, 121, 167);
 /// The steps of the state's eye ray; none where it is missing or meets nothing.
 pub fn steps(state: &AppState, target: &Target) -> Vec<StoryStep> {
     let Some(ray) = state.eye_ray.map(|eye| eye.ray()) else {
@@ -258,7 +256,7 @@ impl Told<'_> {
         };
         let sky = Mark {
             dir: self.incident,
-            color: REFRACTED,
+            color: theme::REFRACTED,
         };
         let numbers = lookup_rows(self.state.mapping, self.incident);
         self.push_lookup(

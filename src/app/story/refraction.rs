@@ -3,8 +3,9 @@
 use egui::Color32;
 use glam::Vec3;
 
-use super::ray::{REFRACTED, Told, degrees_text, lookup_rows, mix_text};
+use super::ray::{Told, degrees_text, lookup_rows, mix_text};
 use super::steps::{Arrow, Dir, Mark, dir_of, number_text, point_of, row, vector_text};
+use crate::app::theme;
 use crate::optics::ball::{
     ball_bounce, ball_enter, ball_exit_dir, ball_exit_weight, ball_left_weight,
 };
@@ -121,7 +122,7 @@ impl Told<'_> {
                 format!("{:.0} nm", wavelength.wavelength_um * 1000.0)
             },
             color: if is_one {
-                REFRACTED
+                theme::REFRACTED
             } else {
                 hue(wavelength.wavelength_um)
             },
