@@ -51,6 +51,8 @@ pub(super) fn choose_ui<T: PartialEq + Clone>(
     let text = ui.label(label);
     ComboBox::from_id_salt(label)
         .width(ui.available_width() - 8.0)
+        // High enough for every list that there is.
+        .height(420.0)
         .selected_text(name(now))
         .show_ui(ui, |ui| {
             for option in options {
