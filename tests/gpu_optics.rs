@@ -25,7 +25,7 @@ const FEW_RAYS: usize = 20_000;
 const BUDGET: Errors = Errors {
     reflected_rad: 3.5e-7,
     refracted_rad: 9e-7,
-    reflectance: 2.2e-6,
+    reflectance: 4.2e-6,
     metal: 7e-7,
     decided_wrongly: 1e-13,
 };

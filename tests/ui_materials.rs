@@ -57,7 +57,7 @@ fn a_kind_is_chosen_by_its_label_and_the_status_says_what_it_costs() {
     ui.get_by_label_contains("1 + 16 lookups a pixel");
     assert!(ui.query_by_label_contains("refraction skipped").is_none());
     // Only what the kind has is shown.
-    ui.get_by_label("wavelengths");
+    ui.get_by_role_and_label(egui::Role::Slider, "wavelengths");
     assert!(ui.query_by_label("metal").is_none());
     click(&mut ui, "what is looked at");
     click(&mut ui, "k as an intensity");
@@ -175,7 +175,10 @@ fn a_model_is_opened_and_a_bad_one_leaves_the_scene() {
         "{}",
         told(&ui)
     );
-    assert!(ui.query_by_label_contains("tetrahedron.obj").is_some());
+    let shown = ui
+        .get_by_role_and_label(egui::Role::ComboBox, "object")
+        .value();
+    assert_eq!(shown.as_deref(), Some("tetrahedron.obj"));
     // A bad one after a good one: the good one stays, and so it does after a load that is taken back.
     run(&mut ui, Command::Open(bad));
     assert_eq!(state(&ui).model.as_deref(), Some(good.as_path()));

@@ -141,38 +141,40 @@ impl Arrangement {
         }
     }
 
-    /// The same with `pane` put beside `neighbour`, wherever that is: right of it, a third as wide as both, or below it.
-    pub fn beside(self, neighbour: Pane, pane: Pane, is_below: bool) -> Self {
-        let put = |held: Self| {
-            let part = |share, content| Share { share, content };
-            if is_below {
-                Self::Column(vec![part(1.0, held), part(1.0, Self::Pane(pane))])
-            } else {
-                Self::Row(vec![part(2.0, held), part(1.0, Self::Pane(pane))])
-            }
-        };
-        let deeper = |children: Vec<Self>| -> Vec<Self> {
-            let child = |child: Self| child.beside(neighbour, pane, is_below);
-            children.into_iter().map(child).collect()
+    /// The same with `pane` as a column at the right of all, as wide as 3/8 of the rest.
+    pub fn with_column(self, pane: Pane) -> Self {
+        let part = |share, content| Share { share, content };
+        Self::Row(vec![part(1.6, self), part(0.6, Self::Pane(pane))])
+    }
+
+    /// The same with `pane` put below `neighbour`, wherever that is; tabs stay together.
+    pub fn with_below(self, neighbour: Pane, pane: Pane) -> Self {
+        let below = |held: Self| {
+            let part = |content| Share {
+                share: 1.0,
+                content,
+            };
+            Self::Column(vec![part(held), part(Self::Pane(pane))])
         };
         let parts = |parts: Vec<Share>| -> Vec<Share> {
             let part = |part: Share| Share {
-                content: part.content.beside(neighbour, pane, is_below),
+                content: part.content.with_below(neighbour, pane),
                 ..part
             };
             parts.into_iter().map(part).collect()
         };
         match self {
-            Self::Pane(held) if held == neighbour => put(self),
-            Self::Pane(_) => self,
-            // Tabs stay together: beside one of them is beside all.
-            Self::Tabs { .. } if self.holds(neighbour) => put(self),
-            Self::Tabs { .. } => self,
+            Self::Pane(held) if held == neighbour => below(self),
+            Self::Tabs { .. } if self.holds(neighbour) => below(self),
+            Self::Pane(_) | Self::Tabs { .. } => self,
             Self::Row(held) => Self::Row(parts(held)),
             Self::Column(held) => Self::Column(parts(held)),
             Self::Grid { columns, children } => Self::Grid {
                 columns,
-                children: deeper(children),
+                children: children
+                    .into_iter()
+                    .map(|child| child.with_below(neighbour, pane))
+                    .collect(),
             },
         }
     }
@@ -278,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pane_is_put_beside_another() {
+    fn a_pane_is_put_beside_all_and_another_below_it() {
         let two = Arrangement::Column(vec![
             Share {
                 share: 2.0,
@@ -290,21 +292,17 @@ mod tests {
             },
         ]);
         assert!(!two.holds(Pane::Story));
-        let three = two.beside(Pane::Viewport, Pane::Story, false);
-        let four = three.clone().beside(Pane::Story, Pane::Curves, true);
+        let three = two.clone().with_column(Pane::Story);
         assert!(three.holds(Pane::Story) && !three.holds(Pane::Curves));
-        let Arrangement::Column(parts) = four else {
-            panic!("the column is gone")
+        let Arrangement::Row(row) = three.with_below(Pane::Story, Pane::Curves) else {
+            panic!("the story is no column of its own")
         };
-        let Arrangement::Row(row) = &parts[0].content else {
-            panic!("the story is not right of the viewport")
-        };
-        assert_eq!(row[0].content, Arrangement::Pane(Pane::Viewport));
+        assert_eq!(row[0].content, two);
         let Arrangement::Column(column) = &row[1].content else {
             panic!("the curves are not below the story")
         };
+        assert_eq!(column[0].content, Arrangement::Pane(Pane::Story));
         assert_eq!(column[1].content, Arrangement::Pane(Pane::Curves));
-        assert_eq!(parts[1].content, pane(MappingId::Ccm));
     }
 
     #[test]

@@ -51,6 +51,8 @@ pub(super) fn choose_ui<T: PartialEq + Clone>(
     let text = ui.label(label);
     ComboBox::from_id_salt(label)
         .width(ui.available_width() - 8.0)
+        // High enough for every list that there is.
+        .height(420.0)
         .selected_text(name(now))
         .show_ui(ui, |ui| {
             for option in options {
@@ -196,14 +198,6 @@ fn panels_ui(ui: &mut Ui, model: &mut Model<'_>) {
         if ui.checkbox(&mut open, mapping.info().name).changed() {
             model.push(Action::SetPanelOpen(mapping, open));
         }
-    }
-    let mut curves = model.state.curves_open;
-    if ui.checkbox(&mut curves, "Reflectance curves").changed() {
-        model.push(Action::SetCurvesOpen(curves));
-    }
-    let mut story = model.state.story;
-    if ui.checkbox(&mut story.open, "Ray story").changed() {
-        model.push(Action::SetStory(story));
     }
     if ui.button("Arrange as at first").clicked() {
         model.push(Command::ResetArrangement);

@@ -8,8 +8,8 @@ use super::controls::choose_ui;
 use super::dialogs::Dialog;
 use super::model::Model;
 use crate::optics::material::{
-    BallPicture, Dispersion, INDEX_RANGE, MAGNIFICATION_RANGE, MOST_BOUNCES, Material, Shading,
-    Surface, Surfaces, View, WAVELENGTHS_RANGE,
+    BallPicture, Dispersion, INDEX_RANGE, MAGNIFICATION_RANGE, MOST_BOUNCES, Material, POWER_RANGE,
+    Shading, Surface, Surfaces, View, WAVELENGTHS_RANGE,
 };
 use crate::optics::presets::presets;
 use crate::optics::{Formula, critical_angle_rad};
@@ -54,6 +54,8 @@ fn choose_into<T: PartialEq + Clone>(
 /// A slider under its name.
 fn slider_ui(ui: &mut Ui, label: &str, slider: Slider<'_>) {
     let name = ui.label(label);
+    // What is not edited keeps all its digits, also those that are not shown.
+    let slider = slider.clamping(egui::SliderClamping::Edits);
     ui.add(slider).labelled_by(name.id);
 }
 
@@ -151,9 +153,7 @@ fn density_ui(ui: &mut Ui, model: &mut Model<'_>) {
 
 fn index_ui(ui: &mut Ui, index: &mut f32) {
     let (low, high) = INDEX_RANGE;
-    let slider = Slider::new(index, low..=high)
-        .max_decimals(4)
-        .clamping(egui::SliderClamping::Always);
+    let slider = Slider::new(index, low..=high).max_decimals(4);
     slider_ui(ui, "index n2/n1", slider);
     let eta = 1.0 / f64::from(*index);
     let mut text = format!("eta = n1/n2 = {eta:.4}");
@@ -173,22 +173,24 @@ fn formula_ui(ui: &mut Ui, material: &mut Material) {
 
 /// The numbers of one formula.
 fn shape_ui(ui: &mut Ui, material: &mut Material, formula: Formula) {
-    let number = |ui: &mut Ui, name: &str, value: &mut f32, high: f32| {
+    let number = |ui: &mut Ui, name: &str, value: &mut f32, (low, high): (f32, f32)| {
         ui.horizontal(|ui| {
             let label = ui.label(name);
-            let drag = DragValue::new(value).range(0.0..=high).speed(0.02);
+            let drag = DragValue::new(value).range(low..=high).speed(0.02);
             ui.add(drag.max_decimals(2)).labelled_by(label.id);
         });
     };
     let shape = &mut material.shape;
     match formula {
-        Formula::Schlick => number(ui, "exponent", &mut shape.exponent, 16.0),
+        Formula::Schlick => number(ui, "exponent", &mut shape.exponent, POWER_RANGE),
         Formula::Cg => {
-            number(ui, "bias", &mut shape.bias, 1.0);
-            number(ui, "scale", &mut shape.scale, 4.0);
-            number(ui, "power", &mut shape.power, 16.0);
+            number(ui, "bias", &mut shape.bias, (0.0, 1.0));
+            number(ui, "scale", &mut shape.scale, (0.0, 4.0));
+            number(ui, "power", &mut shape.power, POWER_RANGE);
         }
-        Formula::Simple | Formula::PrintedSign => number(ui, "power", &mut shape.power, 16.0),
+        Formula::Simple | Formula::PrintedSign => {
+            number(ui, "power", &mut shape.power, POWER_RANGE)
+        }
         _ => {}
     }
 }

@@ -63,7 +63,7 @@ fn find(tree: &Tree<Pane>, pane: Pane) -> Option<TileId> {
     tree.tiles.find_pane(&pane)
 }
 
-/// Puts a map beside the last map, or below everything; what needs room to be read, beside the viewport.
+/// Puts a map beside the last map, or below everything; what needs height to be read, in a column beside all.
 fn insert(tree: &mut Tree<Pane>, pane: Pane) {
     if !matches!(pane, Pane::Map(_))
         && let Some(there) = Arrangement::of_tree(tree)
@@ -71,8 +71,11 @@ fn insert(tree: &mut Tree<Pane>, pane: Pane) {
         let other = [Pane::Curves, Pane::Story]
             .into_iter()
             .find(|other| there.holds(*other));
-        let (neighbour, is_below) = other.map_or((Pane::Viewport, false), |other| (other, true));
-        if let Some(changed) = there.beside(neighbour, pane, is_below).to_tree(tree_id()) {
+        let changed = match other {
+            Some(other) => there.with_below(other, pane),
+            None => there.with_column(pane),
+        };
+        if let Some(changed) = changed.to_tree(tree_id()) {
             *tree = changed;
             return;
         }

@@ -249,6 +249,8 @@ pub struct Material {
 pub const SODIUM_UM: f64 = 0.5893;
 /// Indices of refraction, n2/n1: eta from 3 to 0.3.
 pub const INDEX_RANGE: (f32, f32) = (0.334, 3.33);
+/// Exponents and powers of the approximations. Below 1 a curve would be infinitely steep at its end, where f32 loses it.
+pub const POWER_RANGE: (f32, f32) = (1.0, 16.0);
 /// Numbers of wavelengths.
 pub const WAVELENGTHS_RANGE: (u32, u32) = (1, 64);
 /// Most inner reflections.
@@ -297,8 +299,8 @@ impl Material {
         self.index = within(self.index, or.index, INDEX_RANGE);
         self.opacity = within(self.opacity, or.opacity, (0.0, 1.0));
         self.magnification = within(self.magnification, or.magnification, MAGNIFICATION_RANGE);
-        self.shape.exponent = within(self.shape.exponent, 5.0, (0.1, 16.0));
-        self.shape.power = within(self.shape.power, 2.0, (0.1, 16.0));
+        self.shape.exponent = within(self.shape.exponent, 5.0, POWER_RANGE);
+        self.shape.power = within(self.shape.power, 2.0, POWER_RANGE);
         self.shape.bias = within(self.shape.bias, 0.3, (0.0, 1.0));
         self.shape.scale = within(self.shape.scale, 2.0, (0.0, 4.0));
         let (low, high) = WAVELENGTHS_RANGE;

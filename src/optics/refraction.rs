@@ -38,9 +38,9 @@ impl<R: Real> Meeting<R> {
         }
     }
 
-    /// True where no light is refracted.
+    /// True where no light is refracted, and where the numbers given were no directions and no eta.
     pub fn is_total(&self) -> bool {
-        self.k < R::zero()
+        self.k < R::zero() || !self.k.is_finite()
     }
 }
 

@@ -133,3 +133,37 @@ pub fn offset_etas(eta: f32, dispersion: Dispersion) -> [f32; 3] {
         Dispersion::Offsets | Dispersion::Spectral => [third, second, first],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_observer_is_the_cies() {
+        // CIE 15, the 2 degree observer of 1931.
+        let mut worst = 0.0_f64;
+        for (wavelength_um, xyz) in [
+            (0.45, [0.3362, 0.0380, 1.7721]),
+            (0.50, [0.0049, 0.3230, 0.2720]),
+            (0.55, [0.4334, 0.9950, 0.0087]),
+            (0.60, [1.0622, 0.6310, 0.0008]),
+            (0.65, [0.2835, 0.1070, 0.0000]),
+        ] {
+            for (found, table) in std::iter::zip(observer(wavelength_um), xyz) {
+                worst = worst.max((found - table).abs());
+            }
+            let shifted = observer(wavelength_um + 0.01);
+            assert!((0..3).any(|c| (shifted[c] - xyz[c]).abs() > 0.05));
+        }
+        assert!(worst < 0.04, "{worst}");
+    }
+
+    #[test]
+    fn white_has_no_colour_and_the_primaries_have_one() {
+        // D65 (IEC 61966-2-1), to the digits of the matrix.
+        let white = linear_srgb([0.9505, 1.0, 1.089]);
+        assert!(white.iter().all(|c| (c - 1.0).abs() < 1e-3), "{white:?}");
+        let red = linear_srgb([0.4124, 0.2126, 0.0193]);
+        assert!((red[0] - 1.0).abs() < 1e-3 && red[1].abs() < 1e-3 && red[2].abs() < 1e-3);
+    }
+}

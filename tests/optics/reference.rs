@@ -79,10 +79,10 @@ fn case(i: usize, random: &mut Random) -> Case {
         eta,
         formula: Formula::ALL[i % Formula::ALL.len()],
         shape: Shape {
-            exponent: 1.0 + 7.0 * random.unit() as f32,
+            exponent: 1.0 + 15.0 * random.unit() as f32,
             bias: random.unit() as f32,
             scale: 4.0 * random.unit() as f32,
-            power: 1.0 + 7.0 * random.unit() as f32,
+            power: 1.0 + 15.0 * random.unit() as f32,
         },
         metal: metal.map(|c| c as f32),
     }
