@@ -1,10 +1,6 @@
 //! The window by role and label, on a software adapter: panels, probe, sign table, messages, and what is left undrawn.
 
 #![cfg(feature = "explorer")]
-#![expect(
-    clippy::unwrap_used,
-    reason = "helpers of tests say what they expect by unwrapping"
-)]
 
 mod window_kit;
 

@@ -256,16 +256,21 @@ fn a_curve_is_computed_when_it_is_drawn_and_a_row_chooses_the_formula() {
     let errors = |ui: &Ui| {
         let rows = ui.query_all_by_label_contains("°").count();
         let draw = ui.get_by_label("Draw Cg tutorial");
-        (rows, draw.accesskit_node().toggled())
+        // How many values are kept for the next frame, which only its text tells; the curves are among them.
+        let kept = ui.ctx.memory(|memory| format!("{:?}", memory.caches));
+        let count = kept.split_whitespace().filter_map(|word| word.parse().ok());
+        let kept: usize = count.last().unwrap();
+        (rows, kept, draw.accesskit_node().toggled())
     };
-    let (before, off) = errors(&ui);
+    let (before, kept_before, off) = errors(&ui);
     click(&mut ui, "Draw Cg tutorial");
-    let (after, on) = errors(&ui);
+    let (after, kept_after, on) = errors(&ui);
     assert_eq!(after, before + 1, "the angle of its largest error");
+    assert_eq!(kept_after, kept_before + 1, "one curve more");
     assert_ne!(on, off);
     assert!(state(&ui).curves.shown.contains(&Formula::Cg));
     click(&mut ui, "Draw Cg tutorial");
-    assert_eq!(errors(&ui), (before, off));
+    assert_eq!(errors(&ui), (before, kept_before, off));
     assert_eq!(state(&ui).material.formula, Formula::Fresnel);
     let row = ui
         .query_all_by_label("Cg tutorial")
@@ -312,9 +317,12 @@ fn the_panes_are_still_and_bear_any_size() {
         state.maximised = Some(pane);
         state.controls_open = false;
         state.inspector.open = false;
-        let ui = open_sized(state, 340.0, 300.0);
+        let mut ui = open_sized(state, 340.0, 300.0);
         let rect = ui.get_by_label(label).rect();
         let window = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(340.0, 300.0));
         assert!(window.contains_rect(rect), "{label} at {rect:?}");
+        // The way back is not painted over: its letters are seen.
+        let back = ui.get_by_label("Show all panels").rect();
+        assert!(count(&mut ui, back, egui::Color32::from_gray(225)) > 20);
     }
 }

@@ -354,7 +354,7 @@ fn table_ui(ui: &mut Ui, model: &mut Model<'_>, rows: &[Row], incidence_rad: Opt
                     format!("at {:.1}°", angle.to_degrees())
                 });
                 ui.label(RichText::new(at).small());
-                ui.label(RichText::new("worst error").small());
+                ui.label(RichText::new("largest error").small());
                 ui.label(RichText::new("at").small());
                 ui.end_row();
                 for row in rows {

@@ -31,7 +31,8 @@ pub const LIT: Color32 = Color32::from_rgb(0, 92, 140);
 pub fn pane_frame(ui: &mut egui::Ui) -> egui::Frame {
     let [r, g, b] = PICTURE_BACKGROUND;
     let ground = Color32::from_rgb(r, g, b);
-    ui.painter().rect_filled(ui.max_rect(), 0.0, ground);
+    ui.painter()
+        .rect_filled(ui.available_rect_before_wrap(), 0.0, ground);
     egui::Frame::new().inner_margin(6.0)
 }
 
