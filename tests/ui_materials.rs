@@ -1,10 +1,6 @@
 //! Materials, figures and models in the window, by role and label.
 
 #![cfg(feature = "explorer")]
-#![expect(
-    clippy::unwrap_used,
-    reason = "helpers of tests say what they expect by unwrapping"
-)]
 
 mod window_kit;
 
