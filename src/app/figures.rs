@@ -248,8 +248,9 @@ impl Figure {
             state.mapping = MappingId::Ccm;
         }
         state.camera = Camera {
-            yaw_rad: 0.5,
-            pitch_rad: 0.3,
+            // Towards the bright yard behind dark ground: edges on which colours part.
+            yaw_rad: 0.0,
+            pitch_rad: 0.12,
             // The teapot is flatter than the ball that holds it.
             distance: if object == Object::Teapot { 2.3 } else { 3.2 },
             ..Camera::default()
