@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (width, height) = text.split_once('x').ok_or("the size is WIDTHxHEIGHT")?;
     let size_px = [width.parse()?, height.parse()?];
     let gpu = Gpu::headless()?;
-    println!(
+    eprintln!(
         "{} at {text}, sphere, medians of {ROUNDS} frames",
         gpu.name()
     );
@@ -121,7 +121,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .first()
             .copied()
             .unwrap_or_default();
-        println!(
+        eprintln!(
             "{name:30} {median:7.2} ms  {:5.2} x mirror  {work}",
             median / base
         );

@@ -258,8 +258,8 @@ fn a_curve_is_computed_when_it_is_drawn_and_a_row_chooses_the_formula() {
         let draw = ui.get_by_label("Draw Cg tutorial");
         // How many values are kept for the next frame, which only its text tells; the curves are among them.
         let kept = ui.ctx.memory(|memory| format!("{:?}", memory.caches));
-        let count = kept.split_whitespace().filter_map(|word| word.parse().ok());
-        let kept: usize = count.last().unwrap();
+        let mut count = kept.split_whitespace().filter_map(|word| word.parse().ok());
+        let kept: usize = count.next_back().unwrap();
         (rows, kept, draw.accesskit_node().toggled())
     };
     let (before, kept_before, off) = errors(&ui);
