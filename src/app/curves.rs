@@ -32,6 +32,8 @@ const POINTER: &str = "θ";
 /// Room for a marked angle's name, and for the numbers at the plot's left, in points.
 const NAME_WIDTH: f64 = 78.0;
 const AXIS_WIDTH: f64 = 40.0;
+/// Below this width the table's numbers are told with a place less.
+const NARROW_TABLE: f32 = 310.0;
 /// Height of a row of the table.
 const ROW_HEIGHT: f32 = 21.0;
 /// Below this height curves cannot be told apart.
@@ -344,39 +346,60 @@ fn marks(to: f64, step: f64) -> Vec<GridMark> {
 
 /// Each formula with its value at the angle of incidence and its largest error.
 fn table_ui(ui: &mut Ui, model: &mut Model<'_>, rows: &[Row], incidence_rad: Option<f64>) {
+    let is_narrow = ui.available_width() < NARROW_TABLE;
     egui::ScrollArea::horizontal().show(ui, |ui| {
         Grid::new("formulas")
             .num_columns(4)
-            .spacing([8.0, 1.0])
+            .min_col_width(0.0)
+            .spacing([if is_narrow { 4.0 } else { 8.0 }, 1.0])
             .show(ui, |ui| {
-                ui.label(RichText::new("formula").small());
-                let at = incidence_rad.map_or("at the pointer".to_owned(), |angle| {
-                    format!("at {:.1}°", angle.to_degrees())
+                let at = incidence_rad.map_or("at θ".to_owned(), |angle| {
+                    let degrees = angle.to_degrees();
+                    if is_narrow {
+                        format!("{degrees:.0}°")
+                    } else {
+                        format!("at {degrees:.1}°")
+                    }
                 });
-                ui.label(RichText::new(at).small());
-                ui.label(RichText::new("largest error").small());
-                ui.label(RichText::new("at").small());
+                let largest = if is_narrow {
+                    "largest"
+                } else {
+                    "largest error"
+                };
+                for title in ["formula", &at, largest, "at"] {
+                    ui.label(RichText::new(title).small()).on_hover_text(
+                        "Largest error: the formula less the exact value, where it is farthest off",
+                    );
+                }
                 ui.end_row();
                 for row in rows {
-                    row_ui(ui, model, row, incidence_rad);
+                    row_ui(ui, model, row, incidence_rad, is_narrow);
                     ui.end_row();
                 }
             });
     });
 }
 
-fn row_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, incidence_rad: Option<f64>) {
+fn row_ui(
+    ui: &mut Ui,
+    model: &mut Model<'_>,
+    row: &Row,
+    incidence_rad: Option<f64>,
+    is_narrow: bool,
+) {
+    // Places of a reflectance, and of an angle in degrees.
+    let (places, angle_places) = if is_narrow { (3, 0) } else { (4, 1) };
     ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.spacing_mut().item_spacing.x = if is_narrow { 2.0 } else { 4.0 };
         ui.spacing_mut().button_padding.x = 2.0;
         if let Some(formula) = row.formula {
             show_ui(ui, model, row, formula);
         }
         swatch_ui(ui, row);
         match row.formula {
-            Some(formula) => choose_ui(ui, model, row, formula),
+            Some(formula) => choose_ui(ui, model, name_text(row, is_narrow), formula),
             None => {
-                ui.label(RichText::new(&row.name).small());
+                ui.label(name_text(row, is_narrow));
             }
         }
     });
@@ -384,15 +407,16 @@ fn row_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, incidence_rad: Option<f
         return;
     }
     let mono = |text: String| RichText::new(text).monospace().size(11.0);
-    let value = incidence_rad.map(|angle| format!("{:.4}", row.law.reflectance(angle)));
+    let value = incidence_rad.map(|angle| format!("{:.places$}", row.law.reflectance(angle)));
     ui.label(mono(value.unwrap_or_else(|| "–".to_owned())));
     if row.law.exact() == row.law {
         ui.label(mono("exact".to_owned()));
         return;
     }
     let LargestError { error, angle_rad } = computed(ui.ctx(), row.law).largest;
-    ui.label(mono(format!("{error:+.4}")));
-    ui.label(mono(format!("{:.1}°", angle_rad.to_degrees())));
+    ui.label(mono(format!("{error:+.places$}")));
+    let degrees = angle_rad.to_degrees();
+    ui.label(mono(format!("{degrees:.angle_places$}°")));
 }
 
 /// Draws the curve or not; the exact one always is.
@@ -413,14 +437,15 @@ fn show_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, formula: Formula) {
     }
 }
 
+fn name_text(row: &Row, is_narrow: bool) -> RichText {
+    RichText::new(&row.name).size(if is_narrow { 10.0 } else { 11.0 })
+}
+
 /// Makes the formula the material's.
-fn choose_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, formula: Formula) {
+fn choose_ui(ui: &mut Ui, model: &mut Model<'_>, name: RichText, formula: Formula) {
     let material = &model.state.material;
     let response = ui
-        .selectable_label(
-            material.formula == formula,
-            RichText::new(&row.name).small(),
-        )
+        .selectable_label(material.formula == formula, name)
         .on_hover_text("Click: the material reflects by this formula");
     if response.clicked() && material.formula != formula {
         model.push(Action::SetMaterial(Box::new(Material {
@@ -432,7 +457,7 @@ fn choose_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, formula: Formula) {
 
 /// A piece of the curve's line.
 fn swatch_ui(ui: &mut Ui, row: &Row) {
-    let (rect, _) = ui.allocate_exact_size(vec2(16.0, 10.0), Sense::hover());
+    let (rect, _) = ui.allocate_exact_size(vec2(12.0, 10.0), Sense::hover());
     let line = [rect.left_center(), rect.right_center()];
     let stroke = Stroke::new(row.width.min(3.0), row.color);
     let shapes = match row.style {
