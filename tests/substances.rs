@@ -150,7 +150,7 @@ fn a_material_has_the_rays_of_its_dispersion() {
         assert_eq!(rays.len(), 3);
         assert_eq!(rays[0].rgb, [0.0, 0.0, 1.0]);
         assert_eq!(rays.windows(2).all(|w| w[0].eta < w[1].eta), right);
-        let etas = offset_etas(glass.eta(), dispersion);
+        let etas = offset_etas(1.0 / glass.index, dispersion);
         assert_eq!(rays.iter().map(|r| r.eta).rev().collect::<Vec<_>>(), etas);
     }
 }

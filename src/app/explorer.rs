@@ -229,6 +229,7 @@ impl Explorer {
         let mut model = Model {
             state: &self.state,
             history: &self.history,
+            is_ball: self.object.is_ball(),
             target: self.object.target(),
             surroundings: self.surroundings.as_ref(),
             story: story::steps_if_open(&self.state, self.object.target()),

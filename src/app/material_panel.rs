@@ -84,7 +84,7 @@ fn surface_ui(ui: &mut Ui, model: &mut Model<'_>, material: &mut Material) {
         Surface::Dielectric => {
             index_ui(ui, &mut material.index);
             formula_ui(ui, material);
-            surfaces_ui(ui, material);
+            surfaces_ui(ui, model, material);
         }
         Surface::Metal => {
             choose_into(ui, "metal", &mut material.metal, Metal::ALL, |m| m.name());
@@ -109,7 +109,7 @@ fn surface_ui(ui: &mut Ui, model: &mut Model<'_>, material: &mut Material) {
                 index_ui(ui, &mut material.index);
             }
             formula_ui(ui, material);
-            surfaces_ui(ui, material);
+            surfaces_ui(ui, model, material);
         }
         Surface::Veil => {
             ui.checkbox(&mut material.opacity_by_angle, "opacity 1 − cos");
@@ -195,13 +195,19 @@ fn shape_ui(ui: &mut Ui, material: &mut Material, formula: Formula) {
     }
 }
 
-fn surfaces_ui(ui: &mut Ui, material: &mut Material) {
+fn surfaces_ui(ui: &mut Ui, model: &Model<'_>, material: &mut Material) {
     let mut both = material.surfaces == Surfaces::Both;
     ui.checkbox(&mut both, "through both surfaces")
         .on_hover_text("Off: the ray inside the body looks up the map, as in the notes' shaders");
     material.surfaces = if both { Surfaces::Both } else { Surfaces::One };
     if both {
         bounces_ui(ui, material);
+        if material.surface == Surface::Glass && !model.is_ball {
+            note_ui(
+                ui,
+                "this body is traced at one wavelength; the sphere shows all",
+            );
+        }
     }
 }
 
@@ -233,6 +239,18 @@ fn ball_ui(ui: &mut Ui, model: &mut Model<'_>, material: &mut Material) {
 }
 
 fn view_ui(ui: &mut Ui, material: &mut Material) {
+    // What the view needs and the kind has no control for.
+    let asks_index = !matches!(
+        material.view,
+        View::Whole | View::Reflection | View::Opacity
+    );
+    let is_metals = material.surface == Surface::Metal && material.view == View::Reflectance;
+    if asks_index && !material.refracts() && !is_metals {
+        index_ui(ui, &mut material.index);
+        if material.view != View::Discriminant && material.view != View::Refraction {
+            formula_ui(ui, material);
+        }
+    }
     match material.view {
         View::Difference => {
             let label = "less the reflectance by";

@@ -55,6 +55,8 @@ pub struct Model<'a> {
     pub state: &'a AppState,
     /// What can be undone.
     pub history: &'a History,
+    /// The object stands for the unit ball, whose paths are known in closed form.
+    pub is_ball: bool,
     /// The object, prepared for rays.
     pub target: &'a Target,
     /// The surroundings; `None` until the first ones are there.

@@ -209,6 +209,11 @@ impl ObjectData {
         &self.body.target
     }
 
+    /// True when the body stands for the unit ball.
+    pub fn is_ball(&self) -> bool {
+        self.body.is_ball
+    }
+
     /// The body that is shown.
     pub fn key(&self) -> &BodyKey {
         &self.key
