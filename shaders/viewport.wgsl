@@ -27,19 +27,26 @@ struct Found {
 
 // `right` and `down`: the change of the unit direction over one pixel.
 fn look_up(dir: vec3f, right: vec3f, down: vec3f) -> Found {
+    var found = located(dir, right, down);
+    if found.point.chart != NO_CHART {
+        found.light = map_light(found.point, chart_size(), found.level);
+    }
+    return found;
+}
+
+// The place of a lookup and its level, without the light.
+fn located(dir: vec3f, right: vec3f, down: vec3f) -> Found {
     var found: Found;
     found.point = map_forward(dir);
     if found.point.chart == NO_CHART {
         return found;
     }
-    let size = chart_size();
     if NEEDS_LEVEL || SHOW_GRID {
-        found.tangents = chart_tangents(found.point, dir, size);
+        found.tangents = chart_tangents(found.point, dir, chart_size());
     }
     if NEEDS_LEVEL {
         found.level = map_level(footprint_rad(right, down), found.tangents);
     }
-    found.light = map_light(found.point, size, found.level);
     return found;
 }
 

@@ -18,6 +18,7 @@ use sixfold::optics::material::{Dispersion, Material, Shading, Surface, Surfaces
 use sixfold::optics::reflectance::{Shape, metal_reflectance};
 use sixfold::optics::wavelengths::wavelengths;
 use sixfold::optics::{Formula, meet, reflect, refract};
+use sixfold::scene::trace::Traced;
 use sixfold::scene::{Object, Ray, Target};
 
 type Dir = Vec3<f64>;
@@ -493,4 +494,64 @@ fn two_materials_stand_side_by_side() {
     assert!(worst(&picture, &lefts, &left) < 3.0);
     assert!(worst(&picture, &rights, &right) < 3.0);
     assert!(worst(&picture, &lefts, &right) > 20.0);
+}
+
+#[test]
+fn traced_paths_are_summed_whatever_their_number_and_shape() {
+    let mut renderer = renderer([256, 128], direction_light);
+    let dirs: [Dir; 6] = [
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [0.6, 0.0, 0.8],
+        [0.0, -0.6, 0.8],
+        [-0.8, 0.0, 0.6],
+    ]
+    .map(Vec3::from_f64);
+    let weights = [0.3, 0.05, 0.2, 0.1, 0.25, 0.1];
+    // As many layers as a cube has faces, square and not: an interface that takes such a texture for a cube shows black.
+    for (size, layers) in [([96, 96], 6), ([96, 80], 6), ([96, 96], 2)] {
+        let pixels = (size[0] * size[1]) as usize;
+        let traced = |weights: &[f64]| {
+            let layer = |i: usize| {
+                let [x, y, z] = dirs[i].to_f64().map(|c| c as f32);
+                std::iter::repeat_n([x, y, z, weights[i] as f32], pixels)
+            };
+            Traced {
+                size,
+                layers,
+                dirs: (0..layers as usize).flat_map(layer).collect(),
+            }
+        };
+        let material = Material {
+            surfaces: Surfaces::Both,
+            bounces: layers - 2,
+            ..dielectric(1.5)
+        };
+        let mut view = ViewportFrame {
+            size_px: size,
+            body: body(Object::RoundedCube),
+            ..seen(material)
+        };
+        view.object.traced = Some(Shared::new(traced(&weights)));
+        let picture = shot(&mut renderer, &frame(Some(view.clone()), &[]));
+        let expected = |weights: &[f64]| {
+            let ways = weights.iter().zip(&dirs).take(layers as usize);
+            screen(ways.fold([0.0; 3], |all, (w, dir)| sum(all, light(*dir), [*w; 3])))
+        };
+        let middle = rgb(picture.pixel(size[0] / 2, size[1] / 2).unwrap());
+        let observed = distance(middle, expected(&weights));
+        assert!(
+            observed < 3.0,
+            "{size:?} x {layers}: {observed:.2} of 3 bytes"
+        );
+        // Control: without the last layer it would be another colour.
+        let mut fewer = weights;
+        fewer[layers as usize - 1] = 0.0;
+        assert!(distance(middle, expected(&fewer)) > 6.0);
+        // Paths of another size say nothing of this view: one surface is shown.
+        view.size_px = [80, 64];
+        let other = frame(Some(view), &[]);
+        assert_eq!(cost(&mut renderer, &other), (1, 1));
+    }
 }

@@ -81,6 +81,7 @@ fn programs() -> Vec<Program> {
         Program::ThroughBallDifference(formula),
         Program::Traced,
         Program::TracedDifference(formula),
+        Program::Untraced,
     ]
 }
 

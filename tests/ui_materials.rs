@@ -217,3 +217,34 @@ fn a_balls_picture_is_opened_and_a_bad_one_told() {
     assert!(told(&ui).contains("8 x 4"), "{}", told(&ui));
     assert_eq!(state(&ui).material.ball, BallPicture::Outline);
 }
+
+#[test]
+fn a_view_that_is_too_large_to_trace_is_told_once_and_the_window_rests() {
+    let mut scene = small();
+    scene.material = Material {
+        surface: Surface::Dielectric,
+        surfaces: Surfaces::Both,
+        bounces: 6,
+        ..Material::default()
+    };
+    // Two sides that differ: what is refused is their sum.
+    scene.compare_material = Some(Material {
+        index: 2.0,
+        ..scene.material.clone()
+    });
+    let mut ui = window_kit::open_sized(scene, 3200.0, 2000.0);
+    assert!(told(&ui).contains("the limit is 512"), "{}", told(&ui));
+    let before = ui.state().explorer().messages().len();
+    settle(&mut ui);
+    assert!(!ui.state().explorer().is_busy());
+    assert_eq!(ui.state().explorer().messages().len(), before);
+    // Control: with fewer inner reflections the same view is traced.
+    run(&mut ui, Action::SetCompareMaterial(None));
+    let fewer = Material {
+        bounces: 0,
+        ..state(&ui).material.clone()
+    };
+    set(&mut ui, fewer);
+    assert_eq!(lookups(&ui), (1, 1));
+    ui.get_by_label_contains("dispersion skipped");
+}

@@ -29,6 +29,7 @@ fn scene(kind: StoryKind, step: usize) -> AppState {
     state.eye_ray = Some(EyeRay {
         origin: [0.6, 0.0, -3.2],
         dir: [0.0, 0.0, 1.0],
+        is_right: false,
     });
     state.probe = [0.96, 0.0, -0.28];
     state.probe_follows = false;
@@ -240,6 +241,7 @@ fn the_curves_mark_the_critical_angle_and_follow_the_pointer() {
             eye_ray: Some(EyeRay {
                 origin: [0.0, 0.0, -3.2],
                 dir: [0.0, 0.0, 1.0],
+                is_right: false,
             }),
         },
     );

@@ -14,7 +14,7 @@ struct Material {
     screen_right: vec4f,
     screen_up: vec4f,
     // Weights on red, green and blue; n1/n2.
-    wavelengths: array<vec4f, 64>,
+    wavelengths: array<vec4f, MOST_WAVELENGTHS>,
 }
 
 @group(1) @binding(0) var<uniform> material: Material;

@@ -16,7 +16,7 @@ fn refracted_spectrum(incident: vec3f, normal: vec3f) -> Spectrum {
     spectrum.dir = refracted_dir(incident, normal, middle);
     spectrum.right = dpdx(spectrum.dir);
     spectrum.down = dpdy(spectrum.dir);
-    spectrum.found = look_up(spectrum.dir, spectrum.right, spectrum.down);
+    spectrum.found = located(spectrum.dir, spectrum.right, spectrum.down);
     for (var i = 0u; i < count; i++) {
         let wavelength = material.wavelengths[i];
         let m = meet(incident, normal, wavelength.w);

@@ -11,7 +11,7 @@ fn light_through(incident: vec3f, normal: vec3f, at: vec2f) -> vec3f {
     var levels: array<f32, MOST_BOUNCES + 1>;
     for (var j = 0u; j <= min(bounces, MOST_BOUNCES); j++) {
         let dir = ball_exit_dir(middle);
-        levels[j] = look_up(dir, dpdx(dir), dpdy(dir)).level;
+        levels[j] = located(dir, dpdx(dir), dpdy(dir)).level;
         middle = ball_bounce(middle);
     }
     var light = vec3f(0.0);

@@ -20,10 +20,10 @@ use super::model::{Message, Model, Surroundings};
 use super::object::{Jobs, ObjectData};
 use super::panes;
 use super::picture;
-use super::state::AppState;
+use super::state::{AppState, unit};
 use super::texel_color::{TexelColor, TexelKey};
 use super::views::{ViewKey, Views};
-use super::{bars, controls, inspector, keys, story};
+use super::{bars, controls, inspector, keys, story, viewport};
 use crate::gpu::{Gpu, Renderer};
 
 use jobs::{Errand, Ready};
@@ -352,9 +352,21 @@ impl Explorer {
     fn act(&mut self, action: Action) {
         let before = self.state.clone();
         apply(&mut self.state, action.clone());
+        self.follow_material(&before);
         if before != self.state {
             self.history.record(before, &action);
             self.follow_state();
+        }
+    }
+
+    /// The ray that found the probe looks up what the changed material says.
+    fn follow_material(&mut self, before: &AppState) {
+        let state = &self.state;
+        let is_changed = state.pointed_material() != before.pointed_material();
+        if let Some(eye) = state.eye_ray.filter(|_| is_changed) {
+            let material = state.pointed_material();
+            let dir = viewport::looked_up(self.object.target(), eye.ray(), material);
+            self.state.probe = unit(dir.to_array());
         }
     }
 

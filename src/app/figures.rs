@@ -115,7 +115,8 @@ impl Figure {
         Self::ALL.into_iter().find(|figure| figure.id() == id)
     }
 
-    /// Turns a state into the figure; environment, light, maps and panels stay as they are.
+    /// Turns a state into the figure; environment, light and panels stay as they are, and the mapping too, but for the figure of the
+    /// faces at each vertex, which needs faces.
     pub fn show(self, state: &mut AppState) {
         let dielectric = Material {
             surface: Surface::Dielectric,

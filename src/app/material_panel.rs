@@ -83,8 +83,7 @@ fn surface_ui(ui: &mut Ui, model: &mut Model<'_>, material: &mut Material) {
         Surface::Mirror => mirror_ui(ui, model, material),
         Surface::Dielectric => {
             index_ui(ui, &mut material.index);
-            formula_ui(ui, material);
-            surfaces_ui(ui, model, material);
+            refracting_ui(ui, model, material);
         }
         Surface::Metal => {
             choose_into(ui, "metal", &mut material.metal, Metal::ALL, |m| m.name());
@@ -108,8 +107,7 @@ fn surface_ui(ui: &mut Ui, model: &mut Model<'_>, material: &mut Material) {
             } else {
                 index_ui(ui, &mut material.index);
             }
-            formula_ui(ui, material);
-            surfaces_ui(ui, model, material);
+            refracting_ui(ui, model, material);
         }
         Surface::Veil => {
             ui.checkbox(&mut material.opacity_by_angle, "opacity 1 − cos");
@@ -193,6 +191,17 @@ fn shape_ui(ui: &mut Ui, material: &mut Material, formula: Formula) {
         }
         _ => {}
     }
+}
+
+/// How much is reflected, and how far light is followed. Through both surfaces it is followed exactly: no formula is asked for.
+fn refracting_ui(ui: &mut Ui, model: &Model<'_>, material: &mut Material) {
+    let is_exact = material.surfaces == Surfaces::Both && material.view == View::Whole;
+    if is_exact {
+        note_ui(ui, "reflectance: Fresnel, exact");
+    } else {
+        formula_ui(ui, material);
+    }
+    surfaces_ui(ui, model, material);
 }
 
 fn surfaces_ui(ui: &mut Ui, model: &Model<'_>, material: &mut Material) {

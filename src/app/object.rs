@@ -1,5 +1,7 @@
 //! The object on the stage: its body, its materials' pictures and the paths through it. All that takes time is a job.
 
+mod paths;
+
 use std::path::PathBuf;
 
 use super::job::{Job, Outcome};
@@ -12,8 +14,10 @@ use crate::imaging::{Progress, Stage};
 use crate::meshes;
 use crate::optics::Material;
 use crate::optics::material::{BallPicture, Surface, View};
-use crate::scene::trace::{Traced, trace_view};
-use crate::scene::{Camera, Object, Target};
+use crate::scene::trace::Traced;
+use crate::scene::{Object, Target};
+
+use paths::PathsKey;
 
 /// Which body.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,54 +79,6 @@ fn built_in(object: Object) -> Body {
     }
 }
 
-/// Which paths.
-#[derive(Clone, Debug, PartialEq)]
-struct PathsKey {
-    target: Shared<Target>,
-    camera: Camera,
-    size_px: [u32; 2],
-    eta: f32,
-    bounces: u32,
-}
-
-/// Most bytes for the paths of one view: a picture of 3200 x 2400 pixels with two inner reflections.
-const MOST_PATHS_BYTES: u64 = 512 << 20;
-
-impl PathsKey {
-    /// Bytes that the paths take: four floats for each direction of each pixel.
-    fn bytes(&self) -> u64 {
-        let [width, height] = self.size_px.map(u64::from);
-        width * height * u64::from(self.bounces + 2) * 16
-    }
-
-    fn too_large(&self) -> String {
-        let [width, height] = self.size_px;
-        format!(
-            "tracing {width} x {height} pixels through both surfaces takes {} MB, the limit is {}; make the picture smaller or follow fewer inner reflections",
-            self.bytes() >> 20,
-            MOST_PATHS_BYTES >> 20
-        )
-    }
-
-    /// `None` when it is cancelled or too large.
-    fn trace(&self, progress: &Progress) -> Option<Traced> {
-        if self.bytes() > MOST_PATHS_BYTES {
-            return None;
-        }
-        trace_view(
-            &self.target,
-            &self.camera,
-            self.size_px,
-            self.eta,
-            self.bounces,
-            &|fraction| {
-                progress.step((fraction * 1000.0) as usize, 1000);
-                progress.is_cancelled()
-            },
-        )
-    }
-}
-
 /// What a frame shows of the object.
 #[derive(Clone, Debug)]
 pub struct ObjectFrames {
@@ -134,6 +90,10 @@ pub struct ObjectFrames {
     pub right: Option<ObjectFrame>,
 }
 
+/// What there is to say of a trace that ended without paths.
+const NO_PATHS: &str =
+    "tracing ended without a result: there may be too little memory; make the picture smaller";
+
 /// What became of a job, for the user.
 pub enum News {
     /// A model that was opened is there.
@@ -142,7 +102,7 @@ pub enum News {
     BodyFailed(String),
     /// A picture could not be opened: the state must name another.
     BallFailed(BallPicture, String),
-    /// The view is too large to be traced.
+    /// The view could not be traced.
     PathsFailed(String),
     /// Something to tell.
     Note(String),
@@ -157,13 +117,18 @@ pub struct ObjectData {
     opening: Option<(BallPicture, Job<Result<BallPixels, String>>)>,
     paths: Vec<(PathsKey, Shared<Traced>)>,
     tracing: Option<(PathsKey, Job<Option<Traced>>)>,
-    untraceable: Option<PathsKey>,
+    /// Not tried again while they are wanted: cancelled, or there was no memory.
+    given_up: Vec<PathsKey>,
+    /// Of what the user has stopped.
+    cancelled: Vec<News>,
+    /// Why the view's paths are refused, once it has been told.
+    refused: Option<String>,
 }
 
 struct Building {
     key: BodyKey,
-    /// It was opened by the user: the state follows when it is there.
-    is_opened: bool,
+    /// It was opened by the user over this body: the state follows when it is there.
+    opened_over: Option<BodyKey>,
     job: Job<Result<(Body, Vec<String>), String>>,
 }
 
@@ -200,7 +165,9 @@ impl ObjectData {
             opening: None,
             paths: Vec::new(),
             tracing: None,
-            untraceable: None,
+            given_up: Vec::new(),
+            cancelled: Vec::new(),
+            refused: None,
         }
     }
 
@@ -219,22 +186,32 @@ impl ObjectData {
         &self.key
     }
 
-    /// Opens a model.
+    /// Opens a model over what the state names.
     ///
     /// # Errors
     /// When the system gives no thread.
-    pub fn open_model(&mut self, jobs: &mut Jobs<'_>, path: PathBuf) -> Result<(), String> {
-        self.build(jobs, BodyKey::Model(path), true)
+    pub fn open_model(
+        &mut self,
+        jobs: &mut Jobs<'_>,
+        state: &AppState,
+        path: PathBuf,
+    ) -> Result<(), String> {
+        self.build(jobs, BodyKey::Model(path), Some(BodyKey::of(state)))
     }
 
-    fn build(&mut self, jobs: &mut Jobs<'_>, key: BodyKey, is_opened: bool) -> Result<(), String> {
+    fn build(
+        &mut self,
+        jobs: &mut Jobs<'_>,
+        key: BodyKey,
+        opened_over: Option<BodyKey>,
+    ) -> Result<(), String> {
         let made = key.clone();
         let job = jobs.start(format!("opening {}", key.name()), move |progress| {
             made.make(progress)
         })?;
         self.building = Some(Building {
             key,
-            is_opened,
+            opened_over,
             job,
         });
         Ok(())
@@ -257,10 +234,14 @@ impl ObjectData {
                 (self.key, self.body) = (wanted.clone(), body);
             }
         }
-        if self.key == wanted {
-            self.building.take_if(|building| !building.is_opened);
-        } else if !matches!(&self.building, Some(b) if b.is_opened || b.key == wanted) {
-            self.build(jobs, wanted, false)?;
+        // A model that is being opened gives way to whatever was chosen after it.
+        self.building
+            .take_if(|building| match &building.opened_over {
+                Some(over) => *over != wanted,
+                None => building.key != wanted || self.key == wanted,
+            });
+        if self.key != wanted && self.building.is_none() {
+            self.build(jobs, wanted, None)?;
         }
         self.follow_balls(state, jobs)?;
         self.follow_paths(state, size_px, jobs)
@@ -290,12 +271,22 @@ impl ObjectData {
         size_px: Option<[u32; 2]>,
         jobs: &mut Jobs<'_>,
     ) -> Result<(), String> {
-        let wanted = self.wanted_paths(state, size_px);
+        let mut wanted = self.wanted_paths(state, size_px);
+        let refused = PathsKey::refused(&wanted);
+        if refused.is_some() {
+            wanted.clear();
+        }
         self.paths.retain(|(key, _)| wanted.contains(key));
+        self.given_up.retain(|key| wanted.contains(key));
         self.tracing.take_if(|(key, _)| !wanted.contains(key));
+        if self.refused != refused {
+            self.refused.clone_from(&refused);
+            // Told once; one surface is shown.
+            return refused.map_or(Ok(()), Err);
+        }
         let missing = wanted
             .into_iter()
-            .filter(|key| self.untraceable.as_ref() != Some(key))
+            .filter(|key| !self.given_up.contains(key))
             .find(|key| self.paths.iter().all(|(held, _)| held != key));
         if let Some(key) = missing.filter(|_| self.tracing.is_none()) {
             let made = key.clone();
@@ -343,9 +334,13 @@ impl ObjectData {
                 self.balls.push((picture.clone(), Shared::new(image)));
             }
         }
-        for key in self.wanted_paths(state, size_px) {
+        let wanted = self.wanted_paths(state, size_px);
+        if let Some(why) = PathsKey::refused(&wanted) {
+            return Err(why);
+        }
+        for key in wanted {
             if self.paths.iter().all(|(held, _)| *held != key) {
-                let traced = key.trace(&progress).ok_or_else(|| key.too_large())?;
+                let traced = key.trace(&progress).ok_or(NO_PATHS)?;
                 self.paths.push((key, Shared::new(traced)));
             }
         }
@@ -354,13 +349,13 @@ impl ObjectData {
 
     /// Takes in what the jobs have brought.
     pub fn poll(&mut self) -> Vec<News> {
-        let mut news = Vec::new();
+        let mut news = std::mem::take(&mut self.cancelled);
         if let Some(building) = self.building.take() {
             match building.job.poll() {
                 Outcome::Running => self.building = Some(building),
                 Outcome::Done(Ok((body, notes))) => {
                     (self.key, self.body) = (building.key.clone(), body);
-                    if let (true, BodyKey::Model(path)) = (building.is_opened, building.key) {
+                    if let (Some(_), BodyKey::Model(path)) = (building.opened_over, building.key) {
                         news.push(News::Opened(path));
                     }
                     news.extend(notes.into_iter().map(News::Note));
@@ -389,10 +384,10 @@ impl ObjectData {
             match job.poll() {
                 Outcome::Running => self.tracing = Some((key, job)),
                 Outcome::Done(Some(traced)) => self.paths.push((key, Shared::new(traced))),
-                // Too large: one surface is shown, and it is not tried again in this view.
+                // One surface is shown, and it is not tried again in this view.
                 Outcome::Done(None) | Outcome::Failed => {
-                    news.push(News::PathsFailed(key.too_large()));
-                    self.untraceable = Some(key);
+                    news.push(News::PathsFailed(NO_PATHS.to_owned()));
+                    self.given_up.push(key);
                 }
             }
         }
@@ -412,10 +407,19 @@ impl ObjectData {
         building.chain(opening).chain(tracing)
     }
 
-    /// Stops a job. What the state names must then be brought back to what is shown; true when that is so.
-    pub fn cancel(&mut self, id: u64) -> bool {
-        self.opening.take_if(|(_, job)| job.id == id);
-        self.building.take_if(|b| b.job.id == id).is_some()
+    /// Stops a job; what it leaves to be done comes with the next news.
+    pub fn cancel(&mut self, id: u64) {
+        if let Some((picture, _)) = self.opening.take_if(|(_, job)| job.id == id) {
+            let why = "opening the picture was cancelled".to_owned();
+            self.cancelled.push(News::BallFailed(picture, why));
+        }
+        if self.building.take_if(|b| b.job.id == id).is_some() {
+            let why = "opening the model was cancelled".to_owned();
+            self.cancelled.push(News::BodyFailed(why));
+        }
+        if let Some((key, _)) = self.tracing.take_if(|(_, job)| job.id == id) {
+            self.given_up.push(key);
+        }
     }
 
     /// What a frame shows. The viewport has `size_px` pixels.

@@ -10,6 +10,7 @@ use crate::imaging::Environment;
 use crate::mapping::MappingId;
 use crate::math::Vec3;
 use crate::optics::{Formula, Material};
+use crate::scene::object::FULL_DENSITY;
 use crate::scene::{Camera, Object, Ray};
 
 use super::arrangement::{Arrangement, Pane};
@@ -37,8 +38,7 @@ pub struct AppState {
     pub object: Object,
     /// A model from a file in place of the object.
     pub model: Option<PathBuf>,
-    /// Fineness of the object's triangles, in [`DENSITY_RANGE`]; what `density` 1 is made of tells
-    /// [`Object::mesh_at`].
+    /// Fineness of the object's triangles, in [`DENSITY_RANGE`]; see [`Object::mesh_at`].
     pub density: u32,
     /// What the object is made of.
     pub material: Material,
@@ -86,6 +86,9 @@ pub struct EyeRay {
     pub origin: [f32; 3],
     /// Where it looked, unit length.
     pub dir: [f32; 3],
+    /// It was right of the divider, so that it met the material there.
+    #[serde(default)]
+    pub is_right: bool,
 }
 
 impl EyeRay {
@@ -103,6 +106,7 @@ impl From<Ray> for EyeRay {
         Self {
             origin: ray.origin.to_array(),
             dir: ray.dir.to_array(),
+            is_right: false,
         }
     }
 }
@@ -216,7 +220,7 @@ pub const EXPOSURE_RANGE: (f32, f32) = (-12.0, 12.0);
 /// Texels of a map: from a cube of 16 x 16 faces to one of 2048 x 2048.
 pub const TEXEL_BUDGET_RANGE: (u32, u32) = (6 * 16 * 16, 6 * 2048 * 2048);
 /// Fineness of the object's triangles: from a coarse body to the smooth one.
-pub const DENSITY_RANGE: (u32, u32) = (1, 32);
+pub const DENSITY_RANGE: (u32, u32) = (1, FULL_DENSITY);
 
 impl PanelState {
     /// A panel that shows the whole picture.
@@ -411,6 +415,13 @@ impl AppState {
     /// The materials left and right of the divider.
     pub fn materials(&self) -> impl Iterator<Item = &Material> {
         std::iter::once(&self.material).chain(&self.compare_material)
+    }
+
+    /// The material that the probe's ray has met.
+    pub fn pointed_material(&self) -> &Material {
+        let is_right = self.eye_ray.is_some_and(|ray| ray.is_right);
+        let right = self.compare_material.as_ref().filter(|_| is_right);
+        right.unwrap_or(&self.material)
     }
 
     /// True when there is a divider.

@@ -74,12 +74,15 @@ fn pointer(ui: &Ui, model: &mut Model<'_>, rect: Rect, response: &Response) {
         let place = (pos - rect.min) / rect.size();
         let ray = model.state.camera.ray((place.x, place.y), aspect(rect));
         let state = model.state;
-        let is_right = state.is_divided() && place.x > state.divider;
-        let right = state.compare_material.as_ref().filter(|_| is_right);
+        let eye_ray = EyeRay {
+            is_right: state.is_divided() && place.x > state.divider,
+            ..ray.into()
+        };
+        let right = state.compare_material.as_ref().filter(|_| eye_ray.is_right);
         let dir = looked_up(model.target, ray, right.unwrap_or(&state.material));
         model.push(Action::SetProbe {
             dir: dir.to_array(),
-            eye_ray: Some(ray.into()),
+            eye_ray: Some(eye_ray),
         });
     }
     if clicked && model.state.probe_follows {
@@ -166,7 +169,11 @@ fn paint_marks(ui: &Ui, model: &Model<'_>, rect: Rect) {
         && let Some(hit) = model.target.cast(ray)
     {
         let mut arrows = story::vectors(ray, &hit).to_vec();
-        arrows.extend(story::refracted_vector(ray, &hit, &model.state.material));
+        arrows.extend(story::refracted_vector(
+            ray,
+            &hit,
+            model.state.pointed_material(),
+        ));
         paint_arrows(&painter, model.state.camera, rect, &arrows);
     }
     if overlays.probe {

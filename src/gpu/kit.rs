@@ -2,6 +2,7 @@
 
 use super::optics::{self, OPTICS};
 use super::program::Program;
+use super::uniforms::MOST_WAVELENGTHS;
 use super::{Gpu, Overlays, overlay, shader, tone};
 use crate::mapping::{Coverage, MappingId};
 use crate::optics::material::MOST_BOUNCES;
@@ -96,6 +97,7 @@ pub fn object_source(id: MappingId, variant: Variant, program: Program) -> Strin
     let [r, g, b] = MARK_COLORS[1];
     text += &format!("const FAULT_COLOR = vec3f({r}, {g}, {b});\n");
     text += &format!("const MOST_BOUNCES: u32 = {MOST_BOUNCES}u;\n");
+    text += &format!("const MOST_WAVELENGTHS: u32 = {MOST_WAVELENGTHS}u;\n");
     text += &optics::wgsl_constants();
     viewport_source(id, variant, &(text + OPTICS + MATERIAL + &program.source()))
 }
@@ -287,6 +289,13 @@ impl Kit {
                     },
                 ],
             })
+    }
+
+    /// Layers that a texture needs so that it can be bound as an array of `layers`. The GL interface takes one layer for no
+    /// array and six square ones for a cube; a spare layer says what is meant.
+    pub fn array_layers(&self, layers: u32) -> u32 {
+        let is_gl = self.gpu.adapter_info.backend == wgpu::Backend::Gl;
+        layers + u32::from(is_gl && (layers == 1 || layers.is_multiple_of(6)))
     }
 
     /// A texture of one layer and level that the screen can show and that can be read back.

@@ -65,15 +65,12 @@ impl Map {
     /// An empty map.
     pub fn new(kit: &Kit, id: MappingId, size: [u32; 2]) -> Self {
         let charts = id.info().chart_count();
-        // The GL interface takes one layer for no array and six square ones for a cube; a spare layer says what is meant.
-        let is_gl = kit.gpu.adapter_info.backend == wgpu::Backend::Gl;
-        let spare = u32::from(is_gl && (charts == 1 || charts.is_multiple_of(6)));
         let texture = kit.gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("map"),
             size: wgpu::Extent3d {
                 width: size[0] + 2 * GUTTER,
                 height: size[1] + 2 * GUTTER,
-                depth_or_array_layers: charts + spare,
+                depth_or_array_layers: kit.array_layers(charts),
             },
             mip_level_count: MAP_LEVELS,
             sample_count: 1,

@@ -167,9 +167,18 @@ fn upload(
         height,
         depth_or_array_layers: layers,
     };
+    // A picture of one layer is bound as such; what is more is an array, and so is the single texel that stands for none.
+    let held = if format == wgpu::TextureFormat::Rgba32Float {
+        kit.array_layers(layers)
+    } else {
+        layers
+    };
     let texture = kit.gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
-        size,
+        size: wgpu::Extent3d {
+            depth_or_array_layers: held,
+            ..size
+        },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,

@@ -3,7 +3,8 @@
 use std::fmt;
 
 use crate::optics::Formula;
-use crate::optics::material::{Dispersion, Material, Shading, Surface, Surfaces, View};
+use crate::optics::material::{Material, Shading, Surface, Surfaces, View};
+use crate::optics::wavelengths::wavelengths;
 
 /// A program of the object; part of a pipeline's key. What is a number in the material is not part of it, so that a slider
 /// compiles nothing.
@@ -50,6 +51,8 @@ pub enum Program {
     Traced,
     /// The same beside one surface.
     TracedDifference(Formula),
+    /// The paths are not there, and without them there is nothing to show.
+    Untraced,
 }
 
 /// How the paths through the body can be had.
@@ -70,10 +73,12 @@ impl Program {
         let formula = material.formula;
         let refracts = material.refracts();
         let spectral = material.surface == Surface::Glass;
+        let per_pixel = Self::Mirror {
+            printed: material.is_printed(),
+        };
         let mirror = match material.shading {
-            Shading::PerPixel => Self::Mirror {
-                printed: material.printed_reflection,
-            },
+            _ if material.surface != Surface::Mirror => per_pixel,
+            Shading::PerPixel => per_pixel,
             Shading::VectorPerVertex => Self::VectorPerVertex,
             Shading::CoordinatesPerVertex => Self::CoordinatesPerVertex,
         };
@@ -93,7 +98,7 @@ impl Program {
             View::SurfaceDifference => match paths {
                 Paths::Ball => Self::ThroughBallDifference(formula),
                 Paths::Traced => Self::TracedDifference(formula),
-                Paths::None => Self::one_surface(spectral, formula),
+                Paths::None => Self::Untraced,
             },
             View::Reflection => mirror,
             View::Refraction if spectral => Self::Spectrum,
@@ -140,6 +145,7 @@ impl Program {
             Self::Reflectance(_) => files!("per_pixel" "view_reflectance"),
             Self::Difference(..) => files!("per_pixel" "view_difference"),
             Self::Opacity => files!("per_pixel" "opacity" "view_opacity"),
+            Self::Untraced => files!("per_pixel" "view_untraced"),
             Self::ThroughBall | Self::ThroughBallDifference(_) => {
                 return self.constants() + files!("per_pixel") + super::shader::BALL + THROUGH_BALL;
             }
@@ -192,13 +198,17 @@ pub struct Work {
     pub reflected: u32,
     /// Lookups for refracted light.
     pub refracted: u32,
+    /// Wavelengths are told apart.
+    pub parts_colors: bool,
+    /// The second surface is followed.
+    pub goes_through: bool,
 }
 
 impl Work {
-    /// Of a program with a material; `wavelengths` as the renderer counts them.
+    /// Of a program with a material.
     #[must_use]
     pub fn new(program: Program, material: &Material) -> Self {
-        let spectral = wavelength_count(material);
+        let spectral = wavelengths(material).len() as u32;
         let through = material.bounces + 1;
         let (reflected, refracted) = match program {
             Program::Mirror { .. }
@@ -206,7 +216,6 @@ impl Work {
             | Program::CoordinatesPerVertex
             | Program::Metal => (1, 0),
             Program::Dielectric(_) => (1, 1),
-            // The middle wavelength is looked up once more, for the level.
             Program::Glass(_) => (1, spectral),
             // The sky behind is the second.
             Program::Veil => (1, 1),
@@ -221,34 +230,38 @@ impl Work {
             | Program::Reflectance(_)
             | Program::MetalReflectance
             | Program::Difference(..)
-            | Program::Opacity => (0, 0),
+            | Program::Opacity
+            | Program::Untraced => (0, 0),
         };
         Self {
             reflected,
             refracted,
+            parts_colors: spectral > 1 && !matches!(program, Program::Traced),
+            goes_through: program.is_through(),
         }
-    }
-}
-
-/// Wavelengths that a material is computed with.
-#[must_use]
-pub fn wavelength_count(material: &Material) -> u32 {
-    match (material.surface, material.dispersion) {
-        (Surface::Glass, Dispersion::Spectral) => material.wavelengths,
-        (Surface::Glass, _) => 3,
-        _ => 1,
     }
 }
 
 impl fmt::Display for Work {
-    /// Such as `1 + 16 lookups a pixel` or `1 lookup a pixel, no refraction`.
+    /// Such as `1 + 16 lookups a pixel, 2nd surface skipped` or `1 lookup a pixel, refraction skipped`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let skips = match (self.reflected, self.refracted) {
+            (0, 0) => return f.write_str("no lookup"),
+            (1, 0) => "refraction",
+            (0, _) => "reflection",
+            _ if self.goes_through && self.parts_colors => "",
+            _ if self.goes_through => "dispersion",
+            _ if self.parts_colors => "2nd surface",
+            _ => "dispersion, 2nd surface",
+        };
         match (self.reflected, self.refracted) {
-            (0, 0) => f.write_str("no lookup"),
-            (1, 0) => f.write_str("1 lookup a pixel, refraction skipped"),
-            (0, 1) => f.write_str("1 lookup a pixel, reflection skipped"),
-            (0, n) => write!(f, "{n} lookups a pixel, reflection skipped"),
-            (a, b) => write!(f, "{a} + {b} lookups a pixel"),
+            (a, 0) | (0, a) if a == 1 => f.write_str("1 lookup a pixel")?,
+            (0, n) | (n, 0) => write!(f, "{n} lookups a pixel")?,
+            (a, b) => write!(f, "{a} + {b} lookups a pixel")?,
         }
+        if skips.is_empty() {
+            return Ok(());
+        }
+        write!(f, ", {skips} skipped")
     }
 }

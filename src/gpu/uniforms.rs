@@ -3,6 +3,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::optics::material::WAVELENGTHS_RANGE;
+
 /// Twin of `Bake` in `shaders/bake.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
@@ -32,7 +34,7 @@ pub struct View {
 }
 
 /// Most wavelengths in [`Material`].
-pub const MOST_WAVELENGTHS: usize = 64;
+pub const MOST_WAVELENGTHS: usize = WAVELENGTHS_RANGE.1 as usize;
 
 /// Twin of `Material` in `shaders/object/material.wgsl`.
 #[repr(C)]

@@ -19,7 +19,7 @@ pub enum Style {
     Outline,
     /// Three flat tones and a dark rim.
     Toon,
-    /// Two soft boxes and a window, mirrored in black lacquer.
+    /// Soft boxes at both sides and above, mirrored in black lacquer.
     Studio,
 }
 

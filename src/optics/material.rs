@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::ball::MAX_BOUNCES;
 use super::glass::Glass;
 use super::metal::Metal;
 use super::reflectance::{Formula, Shape};
@@ -255,6 +256,7 @@ pub const POWER_RANGE: (f32, f32) = (1.0, 16.0);
 pub const WAVELENGTHS_RANGE: (u32, u32) = (1, 64);
 /// Most inner reflections.
 pub const MOST_BOUNCES: u32 = 6;
+const _: () = assert!(MOST_BOUNCES <= MAX_BOUNCES, "more than are followed");
 /// Factors on differences.
 pub const MAGNIFICATION_RANGE: (f32, f32) = (1.0, 1000.0);
 
@@ -329,11 +331,20 @@ impl Material {
                 return refracted;
             }
         }
-        if self.printed_reflection && self.surface == Surface::Mirror {
+        if self.is_printed() {
             reflect_as_printed(incident, normal)
         } else {
             reflect(incident, normal)
         }
+    }
+
+    /// True when the paper's sign is what is seen.
+    #[must_use]
+    pub fn is_printed(&self) -> bool {
+        self.printed_reflection
+            && self.surface == Surface::Mirror
+            && self.shading == Shading::PerPixel
+            && matches!(self.view, View::Whole | View::Reflection)
     }
 
     /// True when light goes into the body.
@@ -349,7 +360,7 @@ impl Material {
         let refracts = self.refracts();
         match self.view {
             View::Whole => match self.surface {
-                Surface::Mirror if self.printed_reflection => "mirror, the paper's sign".to_owned(),
+                Surface::Mirror if self.is_printed() => "mirror, the paper's sign".to_owned(),
                 Surface::Mirror if self.shading != Shading::PerPixel => {
                     format!("mirror, {}", self.shading.name())
                 }
@@ -363,6 +374,7 @@ impl Material {
                 surface => surface.name().to_owned(),
             },
             View::Reflectance => format!("reflectance: {formula}"),
+            View::SurfaceDifference => format!("{}, {}", self.body_name(), self.view.name()),
             View::Difference => format!("{formula} less {}", self.other_formula.name()),
             view => view.name().to_owned(),
         }

@@ -1,7 +1,7 @@
 //! Which wavelengths a material's refraction looks up, and what each adds to the colour.
 
 use super::Material;
-use super::material::{Dispersion, Surface};
+use super::material::{Dispersion, Surface, View};
 use super::spectrum::{lines, offset_etas};
 
 /// One refracted ray of a material.
@@ -23,7 +23,8 @@ const PRIMARIES_UM: [f32; 3] = [0.611, 0.549, 0.464];
 /// material does not part the colours.
 #[must_use]
 pub fn wavelengths(material: &Material) -> Vec<Wavelength> {
-    if material.surface != Surface::Glass {
+    // What the second surface adds is looked at without colours, which one surface would part alike.
+    if material.surface != Surface::Glass || material.view == View::SurfaceDifference {
         return vec![Wavelength {
             rgb: [1.0; 3],
             eta: material.eta(),

@@ -187,9 +187,7 @@ impl Explorer {
         if self.loading.take_if(|job| job.id == id).is_some() {
             self.keep_shown();
         }
-        if self.object.cancel(id) {
-            self.keep_body();
-        }
+        self.object.cancel(id);
         self.opening.take_if(|job| job.id == id);
         self.errands.retain(|job| job.id != id);
     }
@@ -229,6 +227,8 @@ impl Explorer {
                 (self.state.object, self.state.density) = (*object, *density);
             }
         }
+        // The ray met another body.
+        self.state.eye_ray = None;
     }
 
     /// Opens a model in a job; the state changes when it is there.
@@ -237,7 +237,7 @@ impl Explorer {
             last_id: &mut self.next_job,
             ctx,
         };
-        if let Err(why) = self.object.open_model(&mut jobs, path) {
+        if let Err(why) = self.object.open_model(&mut jobs, &self.state, path) {
             self.fail(why);
         }
     }

@@ -40,12 +40,12 @@ pub fn steps(state: &AppState, target: &Target) -> Vec<StoryStep> {
     told.hit();
     told.arrows.push(normal);
     told.normal();
-    if state.material.surface == Surface::Ball {
+    if state.pointed_material().surface == Surface::Ball {
         told.ball_picture();
         return told.steps;
     }
     told.reflected(reflected);
-    let material = &state.material;
+    let material = state.pointed_material();
     match material.surface {
         Surface::Mirror | Surface::Ball => {}
         Surface::Metal => told.metal(material.metal),
@@ -157,7 +157,7 @@ impl Told<'_> {
     }
 
     fn reflected(&mut self, mut arrow: Arrow) {
-        let is_printed = self.state.material.printed_reflection;
+        let is_printed = self.state.pointed_material().is_printed();
         let along = self.incident.dot(self.normal);
         let dir = if is_printed {
             reflect_as_printed(self.incident, self.normal)
@@ -247,7 +247,7 @@ impl Told<'_> {
     }
 
     fn veil(&mut self) {
-        let material = &self.state.material;
+        let material = self.state.pointed_material();
         let cos = self.cos_incident();
         let (opacity, formula) = if material.opacity_by_angle {
             (1.0 - cos, "opacity = 1 − cos θ")

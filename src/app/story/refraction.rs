@@ -62,7 +62,7 @@ impl Refracted {
 impl Told<'_> {
     /// Everything about refraction, of a dielectric or a glass.
     pub fn refracted(&mut self) {
-        let material = &self.state.material;
+        let material = self.state.pointed_material();
         let rays = self.refracted_rays(material);
         let cos = self.cos_incident();
         let k_rows = rays.iter().map(|ray| {
@@ -114,7 +114,7 @@ impl Told<'_> {
 
     fn wave(&self, wavelength: &Wavelength) -> Refracted {
         let eta = f64::from(wavelength.eta);
-        let is_one = self.state.material.surface != Surface::Glass;
+        let is_one = self.state.pointed_material().surface != Surface::Glass;
         Refracted {
             name: if is_one {
                 String::new()
@@ -133,7 +133,7 @@ impl Told<'_> {
 
     /// The wavelength in the middle, at which the reflectance is computed for all.
     fn middle(&self) -> Option<Refracted> {
-        let all = wavelengths(&self.state.material);
+        let all = wavelengths(self.state.pointed_material());
         all.get(all.len() / 2).map(|w| self.wave(w))
     }
 
@@ -217,7 +217,7 @@ impl Told<'_> {
             })
         });
         let marks = marks.collect();
-        let text = match self.state.material.surfaces {
+        let text = match self.state.pointed_material().surfaces {
             Surfaces::One if seen.len() == 1 => {
                 "The map is asked in the direction that the ray has inside the body, as if there were no second surface."
             }
@@ -300,7 +300,7 @@ impl Told<'_> {
 
     /// The light's ways through both surfaces: exact in the ball, else along the triangles.
     fn through(&self, eta: f64) -> Through {
-        let bounces = self.state.material.bounces;
+        let bounces = self.state.pointed_material().bounces;
         let is_ball = self.state.model.is_none() && self.state.object == Object::Sphere;
         if is_ball {
             let enter = ball_enter(self.incident, self.normal, eta);
@@ -338,7 +338,7 @@ impl Told<'_> {
         let Some(ray) = self.middle() else {
             return;
         };
-        let material = &self.state.material;
+        let material = self.state.pointed_material();
         let shape = widened(material.shape);
         let meeting = &ray.meeting;
         let formula = material.formula;

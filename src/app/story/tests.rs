@@ -14,6 +14,7 @@ fn state(material: Material) -> AppState {
         eye_ray: Some(EyeRay {
             origin: [0.6, 0.0, -3.2],
             dir: [0.0, 0.0, 1.0],
+            is_right: false,
         }),
         material,
         story: StoryState {
@@ -194,6 +195,7 @@ fn through_both_surfaces_the_parts_sum_to_one() {
         state.eye_ray = Some(EyeRay {
             origin: [x, 0.0, -3.2],
             dir: [0.0, 0.0, 1.0],
+            is_right: false,
         });
         let steps = told(&state);
         let last = steps.last().unwrap();
@@ -246,6 +248,7 @@ fn without_a_ray_or_a_hit_there_is_no_story() {
     state.eye_ray = Some(EyeRay {
         origin: [0.0, 0.0, -3.0],
         dir: [0.0, 1.0, 0.0],
+        is_right: false,
     });
     assert!(told(&state).is_empty());
 }
