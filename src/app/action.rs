@@ -149,17 +149,30 @@ pub fn apply(state: &mut AppState, action: Action) {
             let (low, high) = super::state::DENSITY_RANGE;
             state.density = density.clamp(low, high);
         }
-        Action::SetMaterial(material) => state.material = material.sanitized(),
+        Action::SetMaterial(material) => {
+            let before = state.material.formula;
+            state.material = material.sanitized();
+            if state.material.formula != before {
+                draw_formula(state);
+            }
+        }
         Action::SetCompareMaterial(material) => {
             state.compare_material = material.map(|m| m.sanitized());
         }
-        Action::ShowFigure(figure) => figure.show(state),
+        Action::ShowFigure(figure) => {
+            figure.show(state);
+            draw_formula(state);
+        }
         Action::SetCurvesOpen(open) => {
             state.curves_open = open;
             state.show_alone(state.maximised);
         }
         Action::SetCurves(curves) => state.curves = curves,
         Action::SetStory(story) => {
+            // The story's ray stays while the pointer goes to its buttons; Esc lets it follow again.
+            if story.open && !state.story.open {
+                state.probe_follows = false;
+            }
             state.story = story;
             state.show_alone(state.maximised);
         }
@@ -208,6 +221,14 @@ pub fn apply(state: &mut AppState, action: Action) {
         Action::SetControlsOpen(open) => state.controls_open = open,
         Action::SetMaximised(pane) => state.show_alone(pane),
         Action::Load(loaded) => *state = loaded.sanitized(),
+    }
+}
+
+/// The curve of the material's formula is among those that are drawn.
+fn draw_formula(state: &mut AppState) {
+    let formula = state.material.formula;
+    if !state.curves.shown.contains(&formula) {
+        state.curves.shown.push(formula);
     }
 }
 

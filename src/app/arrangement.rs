@@ -141,10 +141,10 @@ impl Arrangement {
         }
     }
 
-    /// The same with `pane` as a column at the right of all, as wide as 3/8 of the rest.
+    /// The same with `pane` as a column at the right of all, a little more than half as wide as the rest.
     pub fn with_column(self, pane: Pane) -> Self {
         let part = |share, content| Share { share, content };
-        Self::Row(vec![part(1.6, self), part(0.6, Self::Pane(pane))])
+        Self::Row(vec![part(1.6, self), part(0.9, Self::Pane(pane))])
     }
 
     /// The same with `pane` put below `neighbour`, wherever that is; tabs stay together.

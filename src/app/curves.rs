@@ -16,6 +16,7 @@ use super::story::incidence_rad;
 use super::theme;
 use crate::optics::curve::{LargestError, Law, brewster_angle_rad, widened};
 use crate::optics::material::{Material, Surface};
+use crate::optics::reflectance::Shape;
 use crate::optics::wavelengths::wavelengths;
 use crate::optics::{Formula, critical_angle_rad};
 
@@ -120,7 +121,7 @@ fn formula_rows(material: &Material, curves: &CurvesState, eta: f64) -> Vec<Row>
         let is_exact = formula == Formula::Fresnel;
         let (color, style) = look(formula);
         Row {
-            name: formula.name().to_owned(),
+            name: named(formula, material),
             color,
             style,
             width: if is_exact { 4.0 } else { 1.8 },
@@ -134,6 +135,17 @@ fn formula_rows(material: &Material, curves: &CurvesState, eta: f64) -> Vec<Row>
         }
     };
     Formula::ALL.into_iter().map(row).collect()
+}
+
+/// A formula's name, with its exponent where that is not the published one.
+fn named(formula: Formula, material: &Material) -> String {
+    let exponent = material.shape.exponent;
+    let is_usual = exponent == Shape::<f32>::default().exponent;
+    if formula == Formula::Schlick && !is_usual {
+        format!("{}, power {exponent}", formula.name())
+    } else {
+        formula.name().to_owned()
+    }
 }
 
 /// Okabe and Ito's colours, the dark blue lightened for a dark ground; faults are not drawn through.

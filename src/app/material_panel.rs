@@ -279,7 +279,9 @@ fn view_ui(ui: &mut Ui, material: &mut Material) {
                 bounces_ui(ui, material);
             }
         }
-        View::Discriminant | View::Refraction => note_ui(ui, "stripes: all light is reflected"),
+        View::Discriminant | View::Refraction if material.eta() > 1.0 => {
+            note_ui(ui, "stripes: all light is reflected");
+        }
         _ => {}
     }
 }

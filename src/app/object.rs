@@ -355,10 +355,13 @@ impl ObjectData {
                 Outcome::Running => self.building = Some(building),
                 Outcome::Done(Ok((body, notes))) => {
                     (self.key, self.body) = (building.key.clone(), body);
+                    let name = self.key.name();
                     if let (Some(_), BodyKey::Model(path)) = (building.opened_over, building.key) {
                         news.push(News::Opened(path));
                     }
-                    news.extend(notes.into_iter().map(News::Note));
+                    if !notes.is_empty() {
+                        news.push(News::Note(format!("{name}: {}", notes.join("; "))));
+                    }
                 }
                 Outcome::Done(Err(why)) => news.push(News::BodyFailed(why)),
                 Outcome::Failed => {

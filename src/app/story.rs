@@ -45,7 +45,7 @@ pub fn story_ui(ui: &mut Ui, model: &mut Model<'_>) {
     theme::pane_frame(ui).show(ui, |ui| {
         kind_ui(ui, model);
         let Some((index, step)) = model.story_step().map(|(i, step)| (i, step.clone())) else {
-            ui.label("Point at the object in the viewport: the story is that of the ray through the pointer.");
+            ui.label("Point at the object in the viewport and click: the story is that of the ray through that point.");
             return;
         };
         walk_ui(ui, model, index);

@@ -49,7 +49,7 @@ pub enum Request {
 #[derive(Debug, Parser)]
 #[command(name = "sixfold", version, args_conflicts_with_subcommands = true)]
 struct Cli {
-    /// A scene to open in the explorer: a saved scene file, or a picture that the explorer exported
+    /// What to open in the explorer: a saved scene, a picture that it exported, a model (OBJ, glTF, GLB) or a latlong picture
     scene: Option<PathBuf>,
     #[command(subcommand)]
     command: Option<Command>,

@@ -370,7 +370,7 @@ impl Material {
                 _ if refracts && self.surfaces == Surfaces::Both => {
                     format!("{}, both surfaces", self.body_name())
                 }
-                _ if refracts => format!("{}, {formula}", self.body_name()),
+                _ if refracts => format!("{}, one surface, {formula}", self.body_name()),
                 surface => surface.name().to_owned(),
             },
             View::Reflectance => format!("reflectance: {formula}"),

@@ -2,7 +2,7 @@
 
 use super::Material;
 use super::glass::Glass;
-use super::material::{BallPicture, Dispersion, SODIUM_UM, Surface};
+use super::material::{BallPicture, Dispersion, Surface};
 use super::metal::Metal;
 use super::reflectance::{Formula, Shape};
 
@@ -49,11 +49,10 @@ fn dielectric(index: f32) -> Material {
     }
 }
 
-/// A glass whose offsets start where its own curve passes the sodium line.
+/// A glass by its own curve.
 fn glass(glass: Glass) -> Material {
     Material {
         glass,
-        index: glass.index(SODIUM_UM) as f32,
         ..surface(Surface::Glass)
     }
 }

@@ -114,7 +114,7 @@ impl Told<'_> {
     fn eye_ray(&mut self, origin: Dir) {
         self.push(
             "The eye ray",
-            "For each pixel a ray leaves the eye. This one is kept: turn the camera to look at it from the side.",
+            "For each pixel a ray leaves the eye. A click keeps it: then turn the camera to look at it from the side.",
             vec![
                 row("eye", vector_text(origin)),
                 row("direction d", vector_text(self.incident)),

@@ -72,7 +72,7 @@ pub fn steps(probe: Dir) -> Vec<StoryStep> {
             marks: Vec::new(),
             ..step(
                 "The viewer and the ball",
-                "A small mirror ball of radius 1 is seen from far away: every ray runs along u. Hoff's axes: x right, y up, \
+                "A small mirror ball of radius 1 is seen from far away: every ray runs along u; choose the object \"sphere\" to see it. Hoff's axes: x right, y up, \
                  z towards the viewer.",
                 vec![row("u", vector_text(view))],
                 &[&u_arrow],
