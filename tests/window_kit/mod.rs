@@ -66,6 +66,17 @@ pub fn settle(ui: &mut Ui) {
     ui.run_steps(4);
 }
 
+/// True when the window asks for no more frames. A job wakes it when it ends, which may be after its result was taken in: that
+/// is one frame, late. A window that does not rest asks again and again.
+pub fn rests(ui: &mut Ui) -> bool {
+    let asks = (0..8).filter(|_| {
+        std::thread::sleep(Duration::from_millis(5));
+        ui.run_steps(5);
+        ui.ctx.has_requested_repaint()
+    });
+    asks.count() <= 1
+}
+
 pub fn run(ui: &mut Ui, command: impl Into<Command>) {
     let ctx = ui.ctx.clone();
     ui.state_mut().explorer_mut().run(&ctx, command.into());
