@@ -14,13 +14,13 @@ fn object_vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> Ob
 
 @fragment
 fn object_fragment(point: ObjectPoint) -> @location(0) vec4f {
-    return vec4f(object_color(unit(point.relative), facing(point), point.position.xy), 1.0);
+    let incident = unit(point.relative);
+    let normal = facing(incident, unit(point.normal));
+    return vec4f(object_color(incident, normal, point.position.xy), 1.0);
 }
 
 // The unit normal. At the silhouette the interpolated one may turn away: there it is brought back across the ray, so that
 // what lies straight behind is mirrored.
-fn facing(point: ObjectPoint) -> vec3f {
-    let normal = unit(point.normal);
-    let incident = unit(point.relative);
+fn facing(incident: vec3f, normal: vec3f) -> vec3f {
     return unit(normal - incident * max(dot(incident, normal), 0.0));
 }

@@ -9,7 +9,7 @@ use super::material_panel::material_ui;
 use super::model::Model;
 use super::state::{EXPOSURE_RANGE, TEXEL_BUDGET_RANGE};
 use crate::gpu::ToneCurve;
-use crate::imaging::Environment;
+use crate::imaging::{Environment, short_name};
 use crate::mapping::MappingId;
 use crate::scene::Object;
 
@@ -143,10 +143,7 @@ fn object_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let own = state.model.as_ref();
     let name = |object: &Option<Object>| match (object, own) {
         (Some(object), _) => object.name().to_owned(),
-        (None, Some(path)) => path.file_name().map_or_else(
-            || path.display().to_string(),
-            |name| name.to_string_lossy().into_owned(),
-        ),
+        (None, Some(path)) => short_name(path),
         (None, None) => String::new(),
     };
     let now = own.is_none().then_some(state.object);

@@ -7,13 +7,15 @@ use super::command::Command;
 use super::controls::choose_ui;
 use super::dialogs::Dialog;
 use super::model::Model;
+use crate::imaging::short_name;
+use crate::optics::glass::{FRAUNHOFER_C_UM, FRAUNHOFER_F_UM, Glass};
 use crate::optics::material::{
     BallPicture, Dispersion, INDEX_RANGE, MAGNIFICATION_RANGE, MOST_BOUNCES, Material, POWER_RANGE,
     Shading, Surface, Surfaces, View, WAVELENGTHS_RANGE,
 };
+use crate::optics::metal::Metal;
 use crate::optics::presets::presets;
 use crate::optics::{Formula, critical_angle_rad};
-use crate::optics::{glass::Glass, metal::Metal};
 
 /// Shows the material's controls.
 pub fn material_ui(ui: &mut Ui, model: &mut Model<'_>) {
@@ -99,7 +101,8 @@ fn surface_ui(ui: &mut Ui, model: &mut Model<'_>, material: &mut Material) {
             });
             if material.dispersion == Dispersion::Spectral {
                 choose_into(ui, "glass", &mut material.glass, Glass::ALL, |g| g.name());
-                let [red, blue] = [0.656_3, 0.486_1].map(|um| material.glass.index(um));
+                let [red, blue] =
+                    [FRAUNHOFER_C_UM, FRAUNHOFER_F_UM].map(|um| material.glass.index(um));
                 note_ui(ui, &format!("n = {red:.4} at 656 nm, {blue:.4} at 486 nm"));
                 let (low, high) = WAVELENGTHS_RANGE;
                 let slider = Slider::new(&mut material.wavelengths, low..=high);
@@ -234,10 +237,7 @@ fn ball_ui(ui: &mut Ui, model: &mut Model<'_>, material: &mut Material) {
         BallPicture::Outline => "outline".to_owned(),
         BallPicture::Toon => "toon".to_owned(),
         BallPicture::Studio => "studio".to_owned(),
-        BallPicture::File(path) => path.file_name().map_or_else(
-            || path.display().to_string(),
-            |name| name.to_string_lossy().into_owned(),
-        ),
+        BallPicture::File(path) => short_name(path),
     };
     if let Some(ball) = choose_ui(ui, "picture of the ball", &material.ball, options, name) {
         material.ball = ball;

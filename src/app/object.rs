@@ -10,7 +10,7 @@ use super::objects::target_of;
 use super::state::{AppState, DENSITY_RANGE};
 use crate::gpu::{Body, ObjectFrame, Shared};
 use crate::imaging::ball::{self, BallPixels, Style};
-use crate::imaging::{Progress, Stage};
+use crate::imaging::{Progress, Stage, short_name};
 use crate::meshes;
 use crate::optics::Material;
 use crate::optics::material::{BallPicture, Surface, View};
@@ -64,10 +64,7 @@ impl BodyKey {
     fn name(&self) -> String {
         match self {
             Self::BuiltIn(object, _) => object.name().to_owned(),
-            Self::Model(path) => path.file_name().map_or_else(
-                || path.display().to_string(),
-                |name| name.to_string_lossy().into_owned(),
-            ),
+            Self::Model(path) => short_name(path),
         }
     }
 }

@@ -419,7 +419,11 @@ impl AppState {
 
     /// The material that the probe's ray has met.
     pub fn pointed_material(&self) -> &Material {
-        let is_right = self.eye_ray.is_some_and(|ray| ray.is_right);
+        self.material_at(self.eye_ray.is_some_and(|ray| ray.is_right))
+    }
+
+    /// The material on one side of the divider.
+    pub fn material_at(&self, is_right: bool) -> &Material {
         let right = self.compare_material.as_ref().filter(|_| is_right);
         right.unwrap_or(&self.material)
     }

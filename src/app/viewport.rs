@@ -78,8 +78,7 @@ fn pointer(ui: &Ui, model: &mut Model<'_>, rect: Rect, response: &Response) {
             is_right: state.is_divided() && place.x > state.divider,
             ..ray.into()
         };
-        let right = state.compare_material.as_ref().filter(|_| eye_ray.is_right);
-        let dir = looked_up(model.target, ray, right.unwrap_or(&state.material));
+        let dir = looked_up(model.target, ray, state.material_at(eye_ray.is_right));
         model.push(Action::SetProbe {
             dir: dir.to_array(),
             eye_ray: Some(eye_ray),
@@ -144,10 +143,10 @@ fn side_name(model: &Model<'_>, mapping: MappingId, is_right: bool) -> String {
     let [w, h] = model.map_size(mapping);
     let charts = mapping.info().chart_count();
     let map = format!("{}  {charts} × {w}×{h}", mapping.info().name);
-    let Some(right) = &state.compare_material else {
+    if state.compare_material.is_none() {
         return map;
-    };
-    let material = if is_right { right } else { &state.material };
+    }
+    let material = state.material_at(is_right);
     if state.compare.is_some() {
         format!("{}\n{map}", material.title())
     } else {

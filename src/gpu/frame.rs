@@ -135,12 +135,16 @@ impl ViewportFrame {
             program: self.program(object),
         };
         let left = side(self.left, &self.object);
-        let is_divided = self.right.is_some() || self.right_object.is_some();
-        let right = is_divided.then(|| {
+        let right = self.is_divided().then(|| {
             let object = self.right_object.as_ref().unwrap_or(&self.object);
             side(self.right.unwrap_or(self.left), object)
         });
         std::iter::once(left).chain(right).collect()
+    }
+
+    /// True when there is a divider.
+    fn is_divided(&self) -> bool {
+        self.right.is_some() || self.right_object.is_some()
     }
 
     fn program(&self, object: &ObjectFrame) -> Program {
@@ -164,7 +168,7 @@ impl ViewportFrame {
     /// The pixel column at which the right mapping begins.
     pub(super) fn divider_px(&self) -> u32 {
         let width = self.size_px[0];
-        if self.right.is_none() && self.right_object.is_none() {
+        if !self.is_divided() {
             return width;
         }
         ((self.divider * width as f32).round() as u32).min(width)

@@ -291,11 +291,11 @@ impl Kit {
             })
     }
 
-    /// Layers that a texture needs so that it can be bound as an array of `layers`. The GL interface takes one layer for no
-    /// array and six square ones for a cube; a spare layer says what is meant.
-    pub fn array_layers(&self, layers: u32) -> u32 {
+    /// Layers that a texture needs beyond `layers` so that it can be bound as an array of them. The GL interface takes one layer
+    /// for no array and six square ones for a cube; a spare layer says what is meant.
+    pub fn spare_layers(&self, layers: u32) -> u32 {
         let is_gl = self.gpu.adapter_info.backend == wgpu::Backend::Gl;
-        layers + u32::from(is_gl && (layers == 1 || layers.is_multiple_of(6)))
+        u32::from(is_gl && (layers == 1 || layers.is_multiple_of(6)))
     }
 
     /// A texture of one layer and level that the screen can show and that can be read back.

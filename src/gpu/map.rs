@@ -70,7 +70,7 @@ impl Map {
             size: wgpu::Extent3d {
                 width: size[0] + 2 * GUTTER,
                 height: size[1] + 2 * GUTTER,
-                depth_or_array_layers: kit.array_layers(charts),
+                depth_or_array_layers: charts + kit.spare_layers(charts),
             },
             mip_level_count: MAP_LEVELS,
             sample_count: 1,

@@ -136,7 +136,7 @@ fn ball_texture(kit: &Kit, image: Option<&BallPixels>) -> wgpu::Texture {
     let (size, bytes): ([u32; 2], &[u8]) =
         image.map_or(([1, 1], &black), |image| (image.size, &image.rgba));
     let format = wgpu::TextureFormat::Rgba8Unorm;
-    upload(kit, "ball picture", format, size, 1, bytes)
+    upload(kit, "ball picture", format, size, [1, 0], bytes)
 }
 
 fn traced_texture(kit: &Kit, traced: Option<&Traced>) -> wgpu::Texture {
@@ -149,17 +149,18 @@ fn traced_texture(kit: &Kit, traced: Option<&Traced>) -> wgpu::Texture {
         "traced",
         format,
         size,
-        layers,
+        [layers, kit.spare_layers(layers)],
         bytemuck::cast_slice(dirs),
     )
 }
 
+/// A texture of `layers` that are filled, and `spare` ones that are not.
 fn upload(
     kit: &Kit,
     label: &str,
     format: wgpu::TextureFormat,
     [width, height]: [u32; 2],
-    layers: u32,
+    [layers, spare]: [u32; 2],
     bytes: &[u8],
 ) -> wgpu::Texture {
     let size = wgpu::Extent3d {
@@ -167,16 +168,10 @@ fn upload(
         height,
         depth_or_array_layers: layers,
     };
-    // A picture of one layer is bound as such; what is more is an array, and so is the single texel that stands for none.
-    let held = if format == wgpu::TextureFormat::Rgba32Float {
-        kit.array_layers(layers)
-    } else {
-        layers
-    };
     let texture = kit.gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d {
-            depth_or_array_layers: held,
+            depth_or_array_layers: layers + spare,
             ..size
         },
         mip_level_count: 1,

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Progress;
 use super::computed::{self, Pattern};
+use super::file::short_name;
 use super::load::{self, LoadError, Loaded};
 
 /// The colours of the six faces +x -x +y -y +z -z as sRGB: three hues of the palette that Okabe and Ito chose for every kind
@@ -61,11 +62,7 @@ impl Environment {
             Self::Graticule => "Graticule".to_owned(),
             Self::DirectionColor => "Direction as colour".to_owned(),
             Self::IcosahedronCrosses => "Icosahedron crosses".to_owned(),
-            Self::File(path) => path
-                .file_name()
-                .unwrap_or(path.as_os_str())
-                .to_string_lossy()
-                .into_owned(),
+            Self::File(path) => short_name(path),
         }
     }
 

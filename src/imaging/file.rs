@@ -6,6 +6,12 @@ use std::path::Path;
 
 use super::{Progress, Stage};
 
+/// A file's own name without its folders, for lists; the whole path where it has none.
+pub fn short_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
+}
+
 /// Opens a file for reading, and nothing else: a pipe would wait for ever when opened, and a device may never end.
 ///
 /// # Errors

@@ -22,8 +22,8 @@ pub mod sanitize;
 pub mod srgb;
 
 pub use environment::{Environment, FACE_COLORS};
-pub use file::open_regular;
 pub(crate) use file::{ReadProblem, read_whole};
+pub use file::{open_regular, short_name};
 pub use image::{Image, ImageSizeError};
 pub use load::{LoadError, LoadProblem, Loaded};
 pub use progress::{Progress, Stage};

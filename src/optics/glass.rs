@@ -98,6 +98,8 @@ impl Glass {
 
 /// The shortest and the longest wavelength of [`Glass::index`], in micrometres.
 pub const VISIBLE_UM: (f64, f64) = (0.38, 0.78);
+/// Wavelength of the sodium line D in micrometres, at which indices are quoted as n_D (the mean of its two lines).
+pub const SODIUM_UM: f64 = 0.5893;
 /// The yellow line of helium, in micrometres; indices with a "d" are taken here.
 pub const FRAUNHOFER_D_UM: f64 = 0.587_561_8;
 /// The blue line of hydrogen, in micrometres.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::ball::MAX_BOUNCES;
-use super::glass::Glass;
+use super::glass::{Glass, SODIUM_UM};
 use super::metal::Metal;
 use super::reflectance::{Formula, Shape};
 use super::reflection::{reflect, reflect_as_printed};
@@ -246,8 +246,6 @@ pub struct Material {
     pub magnification: f32,
 }
 
-/// Wavelength of the sodium line D in micrometres, at which indices are quoted as n_D (the mean of its two lines).
-pub const SODIUM_UM: f64 = 0.5893;
 /// Indices of refraction, n2/n1: eta from 3 to 0.3.
 pub const INDEX_RANGE: (f32, f32) = (0.334, 3.33);
 /// Exponents and powers of the approximations. Below 1 a curve would be infinitely steep at its end, where f32 loses it.

@@ -1,6 +1,6 @@
 //! From wavelengths to colour.
 
-use super::glass::VISIBLE_UM;
+use super::glass::{SODIUM_UM, VISIBLE_UM};
 use super::material::{Dispersion, WAVELENGTHS_RANGE};
 
 /// One wavelength's part in a colour.
@@ -48,8 +48,6 @@ pub fn line_color(wavelength_um: f64) -> [f64; 3] {
     rgb.map(|c| (c / largest).clamp(0.0, 1.0))
 }
 
-/// The middle of sodium's two yellow lines, in micrometres.
-const SODIUM_UM: f64 = 0.5893;
 /// Between these, in micrometres, the bands are equal.
 const BANDS_UM: (f64, f64) = (0.40, 0.70);
 /// Sample points of a band's integral: at least every 2 nm, a tenth of the observer's narrowest lobe.
