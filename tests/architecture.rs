@@ -23,7 +23,7 @@ const LAYERS: [(&str, &[&str]); 9] = [
 ];
 
 /// Outside crates that stay behind one layer's door, and the layers that may name them.
-const FENCED_CRATES: [(&str, &[&str]); 17] = [
+const FENCED_CRATES: [(&str, &[&str]); 21] = [
     ("wgpu", &["gpu", "app"]),
     ("bytemuck", &["gpu"]),
     ("pollster", &["gpu"]),
@@ -35,6 +35,10 @@ const FENCED_CRATES: [(&str, &[&str]); 17] = [
     ("rfd", &["app"]),
     ("clap", &["cli"]),
     ("image", &["imaging"]),
+    ("indicatif", &["cli"]),
+    ("pulp", &["imaging"]),
+    ("rayon", &["imaging"]),
+    ("ruzstd", &["imaging"]),
     ("exr", &["imaging"]),
     ("gltf", &["meshes"]),
     ("base64", &["meshes"]),

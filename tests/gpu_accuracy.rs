@@ -408,7 +408,7 @@ fn the_layout_tables_are_rusts() {
             .unwrap();
         for (i, found) in (0_u32..).zip(&found) {
             let cell = [i % 8, i / 8];
-            let chart = layout.cells().iter().position(|c| *c == cell);
+            let chart = layout.cells().iter().position(|c| c.at == cell);
             assert_eq!(
                 found.map(|p| p.chart as usize),
                 chart,
@@ -417,7 +417,7 @@ fn the_layout_tables_are_rusts() {
             if let (Some(found), Some(cell)) = (found, layout.cells().get(i as usize)) {
                 assert_eq!(
                     [found.u.to_bits(), found.v.to_bits()],
-                    *cell,
+                    cell.at,
                     "{id}, chart {i}"
                 );
             }

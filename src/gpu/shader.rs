@@ -111,7 +111,8 @@ fn glue(role: &str, id: MappingId) -> String {
     let capital = role.to_uppercase();
     let [columns, rows] = info.layout.grid();
     let (mut cells, mut charts) = (String::new(), String::new());
-    for (chart, [column, row]) in info.layout.cells().iter().enumerate() {
+    for (chart, cell) in info.layout.cells().iter().enumerate() {
+        let [column, row] = cell.at;
         line(
             &mut cells,
             format_args!("        case {chart}u: {{ return vec2u({column}u, {row}u); }}"),

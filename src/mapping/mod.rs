@@ -11,18 +11,22 @@
 
 #[macro_use]
 mod registry;
+mod axes;
 mod chart;
 mod convention;
 pub mod cube_face;
 mod evaluator;
 mod jacobian;
 mod layout;
+mod turn;
 
+pub use axes::Axes;
 pub use chart::{ChartPoint, Claims, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot};
 pub use convention::{Convention, Erratum, ForwardFn, InverseFn};
 pub use evaluator::{Cpu, Evaluator, EvaluatorError, EvaluatorInfo, SHARED_EVALUATORS};
 pub use jacobian::Jacobian;
-pub use layout::Layout;
+pub use layout::{Cell, Layout};
+pub use turn::Turn;
 
 use crate::math::{Real, Vec3};
 
