@@ -25,8 +25,8 @@ pub mod sanitize;
 pub mod srgb;
 
 pub use environment::{Environment, FACE_COLORS};
-pub(crate) use file::{ReadProblem, read_whole};
 pub use environment_map::{EnvironmentMap, MapShape, Placement, ShapeError, Siting};
+pub(crate) use file::{ReadProblem, read_whole};
 pub use file::{open_regular, short_name};
 pub use image::{Image, ImageSizeError};
 pub use load::{LoadError, LoadProblem, Loaded};

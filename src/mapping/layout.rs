@@ -280,7 +280,10 @@ mod tests {
     #[test]
     fn names_come_back() {
         for (charts, layouts) in [(1, 2), (2, 3), (6, 8)] {
-            let held: Vec<Layout> = Layout::ALL.into_iter().filter(|l| l.holds(charts)).collect();
+            let held: Vec<Layout> = Layout::ALL
+                .into_iter()
+                .filter(|l| l.holds(charts))
+                .collect();
             assert_eq!(held.len(), layouts);
             for layout in held {
                 assert_eq!(Layout::from_id(layout.id(), charts), Some(layout));

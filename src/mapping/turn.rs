@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 /// The chart as it was drawn, exchanged left and right when `mirrored`, then turned clockwise by quarter turns.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
+)]
 pub struct Turn {
     quarters: u8,
     mirrored: bool,
@@ -105,7 +107,10 @@ mod tests {
                 for place in places {
                     let twice = b.cell_place(a.cell_place(place));
                     let once = a.then(b).cell_place(place);
-                    assert!((0..2).all(|i| (twice[i] - once[i]).abs() < 1e-15), "{a:?} {b:?}");
+                    assert!(
+                        (0..2).all(|i| (twice[i] - once[i]).abs() < 1e-15),
+                        "{a:?} {b:?}"
+                    );
                 }
             }
             assert_eq!(a.then(a.inverse()), Turn::UPRIGHT);

@@ -5,6 +5,8 @@
 //! - [`Plan::run`]: fills a map, on all threads, strip by strip.
 
 mod conversion;
+#[expect(dead_code, reason = "the first user comes with the engine")]
+mod lookups;
 mod report;
 
 pub use conversion::{Conversion, Filter, FilteredIn, Isa};
@@ -27,7 +29,9 @@ pub enum ResampleError {
         layout: &'static str,
     },
     /// Too many texels.
-    #[error("{width} x {height} texels a chart are too many, the limit is {most} a side; choose a smaller size")]
+    #[error(
+        "{width} x {height} texels a chart are too many, the limit is {most} a side; choose a smaller size"
+    )]
     TooLarge {
         /// Texels in a row of a chart.
         width: u32,
