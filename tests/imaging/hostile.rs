@@ -2,7 +2,7 @@
 
 use sixfold::imaging::load::{Format, LoadProblem, declared_size};
 
-use super::fixtures::{crc32, hdr, open, seeds};
+use super::fixtures::{crc32, hdr, next, open, seeds};
 
 fn hdr_bomb() -> Vec<u8> {
     b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n".to_vec()
@@ -191,13 +191,6 @@ fn truncated_files_end_in_a_message() {
             );
         }
     }
-}
-
-fn next(state: &mut u64) -> u64 {
-    *state ^= *state << 13;
-    *state ^= *state >> 7;
-    *state ^= *state << 17;
-    *state
 }
 
 /// Makes the check sums of all chunks right again, so that damage reaches the decoder.

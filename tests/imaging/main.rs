@@ -6,3 +6,4 @@ mod files;
 mod fixtures;
 mod formats;
 mod hostile;
+mod saved;
