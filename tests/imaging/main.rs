@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod computed;
+mod containers;
 mod files;
 mod fixtures;
 mod formats;
