@@ -82,6 +82,11 @@ fn mark(face: usize, level: usize, _: usize) -> f32 {
     (face * 16 + level + 1) as f32
 }
 
+/// A cube map of which every picture is another constant.
+pub fn marked_cube(size: u32, stored: Stored) -> Container {
+    container([size; 2], 6, stored, Transfer::Linear, mark)
+}
+
 #[test]
 fn faces_and_levels_come_back_where_they_were() {
     for (stored, transfer) in KINDS {

@@ -126,7 +126,13 @@ pub(super) fn read(bytes: &[u8], progress: &Progress) -> Result<Container, LoadP
                 let mut unpacked = caught(|| StreamingDecoder::new(data))
                     .ok_or_else(|| damaged("its packed data begin with impossible values"))?
                     .map_err(damaged)?;
-                faces(header.declared.faces, size, &mut pictures, &mut unpacked)?
+                let rasters = faces(header.declared.faces, size, &mut pictures, &mut unpacked)?;
+                if !matches!(caught(|| unpacked.read(&mut [0])), Some(Ok(0))) {
+                    return Err(damaged(format!(
+                        "level {k} unpacks to more than it declares"
+                    )));
+                }
+                rasters
             } else {
                 faces(header.declared.faces, size, &mut pictures, &mut data)?
             },
