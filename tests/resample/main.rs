@@ -9,5 +9,6 @@
     reason = "tests say what they expect by unwrapping, and what they saw by printing"
 )]
 
+mod constants;
 mod fixtures;
 mod registration;
