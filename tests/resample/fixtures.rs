@@ -166,6 +166,24 @@ impl Budgets {
         }
     }
 
+    /// `observed` decibels must not be below `least`, nor above it by 10, a factor 3 of the error.
+    pub fn at_least_db(&mut self, what: &str, observed: f64, least: f64) {
+        println!("{what:60} observed {observed:6.1} dB  at least {least:6.1} dB");
+        if observed < least || observed > least + 10.0 {
+            self.faults
+                .push(format!("{what}: {observed:.1} dB beside {least:.1} dB"));
+        }
+    }
+
+    /// Something broken on purpose must be below.
+    pub fn must_break_db(&mut self, what: &str, observed: f64, least: f64) {
+        println!("{what:60} observed {observed:6.1} dB  must be below {least:6.1} dB");
+        if observed >= least {
+            self.faults
+                .push(format!("{what} was not noticed: {observed:.1} dB"));
+        }
+    }
+
     pub fn check(self) {
         assert!(self.faults.is_empty(), "{}", self.faults.join("\n"));
     }
