@@ -4,7 +4,7 @@ use sixfold::imaging::resample::{Conversion, Filter, Plan, Report};
 use sixfold::imaging::{
     Channels, EnvironmentMap, MapShape, Progress, Raster, SampleKind, Samples, Siting, Transfer,
 };
-use sixfold::mapping::{Axes, ChartPoint, Layout, MappingId};
+use sixfold::mapping::{Axes, ChartPoint, MappingId};
 
 /// A vector of doubles.
 pub type Dir = [f64; 3];
@@ -127,9 +127,6 @@ pub fn run(source: &EnvironmentMap, conversion: &Conversion) -> (EnvironmentMap,
         .run(source, &Progress::new())
         .unwrap()
 }
-
-/// The layout with a picture for each chart.
-pub const FACES: Layout = Layout::Faces;
 
 /// Observed numbers beside their budgets.
 #[derive(Default)]

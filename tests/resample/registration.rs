@@ -307,12 +307,12 @@ fn what_is_broken_is_noticed() {
 
 fn turned(angle: f64, m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     let (sin, cos) = angle.sin_cos();
-    let mix = |k: usize| (cos * m[0][k] - sin * m[1][k], sin * m[0][k] + cos * m[1][k]);
-    let mut turned = m;
-    for k in 0..3 {
-        (turned[0][k], turned[1][k]) = mix(k);
-    }
-    turned
+    let [first, second, third] = m;
+    [
+        std::array::from_fn(|k| cos * first[k] - sin * second[k]),
+        std::array::from_fn(|k| sin * first[k] + cos * second[k]),
+        third,
+    ]
 }
 
 /// Both sitings, on both sides, and charts of very few texels: nothing breaks, and edge samples lie where they say.
