@@ -4,7 +4,7 @@ use sixfold::imaging::resample::{Conversion, Filter, Plan, Report};
 use sixfold::imaging::{
     Channels, EnvironmentMap, MapShape, Progress, Raster, SampleKind, Samples, Siting, Transfer,
 };
-use sixfold::mapping::{Axes, ChartPoint, Layout, MappingId};
+use sixfold::mapping::{Axes, ChartPoint, MappingId};
 
 /// A vector of doubles.
 pub type Dir = [f64; 3];
@@ -47,6 +47,7 @@ pub fn shape(mapping: MappingId, size: [u32; 2]) -> MapShape {
 pub fn texels(shape: &MapShape) -> impl Iterator<Item = (u32, [u32; 2], Dir)> + '_ {
     let [width, height] = shape.size;
     (0..shape.charts.len() as u32)
+        .filter(|chart| shape.charts[*chart as usize].is_some())
         .flat_map(move |chart| (0..height).map(move |y| (chart, y)))
         .flat_map(move |(chart, y)| (0..width).map(move |x| (chart, [x, y])))
         .filter_map(|(chart, texel)| Some((chart, texel, direction(shape, chart, texel)?)))
@@ -127,9 +128,6 @@ pub fn run(source: &EnvironmentMap, conversion: &Conversion) -> (EnvironmentMap,
         .unwrap()
 }
 
-/// The layout with a picture for each chart.
-pub const FACES: Layout = Layout::Faces;
-
 /// Observed numbers beside their budgets.
 #[derive(Default)]
 pub struct Budgets {
@@ -139,14 +137,19 @@ pub struct Budgets {
 impl Budgets {
     /// `observed` must not be above `budget`, nor a tenth of it.
     pub fn hold(&mut self, what: &str, observed: f64, budget: f64) {
-        println!("{what:60} observed {observed:9.2e}  budget {budget:8.1e}");
-        if !(observed <= budget) {
-            self.faults
-                .push(format!("{what}: {observed:.3e} > {budget:.1e}"));
-        }
+        self.within(what, observed, budget);
         if observed * 10.0 < budget {
             self.faults
                 .push(format!("{what}: {budget:.1e} is far above {observed:.3e}"));
+        }
+    }
+
+    /// `observed` must not be above `budget`, but may be far below: a part of something else that holds it.
+    pub fn within(&mut self, what: &str, observed: f64, budget: f64) {
+        println!("{what:60} observed {observed:9.2e}  budget {budget:8.1e}");
+        if observed.is_nan() || observed > budget {
+            self.faults
+                .push(format!("{what}: {observed:.3e} > {budget:.1e}"));
         }
     }
 
@@ -157,6 +160,24 @@ impl Budgets {
             self.faults.push(format!(
                 "{what} was not noticed: {observed:.3e} <= {budget:.1e}"
             ));
+        }
+    }
+
+    /// `observed` decibels must not be below `least`, nor above it by 10, a factor 3 of the error.
+    pub fn at_least_db(&mut self, what: &str, observed: f64, least: f64) {
+        println!("{what:60} observed {observed:6.1} dB  at least {least:6.1} dB");
+        if observed < least || observed > least + 10.0 {
+            self.faults
+                .push(format!("{what}: {observed:.1} dB beside {least:.1} dB"));
+        }
+    }
+
+    /// Something broken on purpose must be below.
+    pub fn must_break_db(&mut self, what: &str, observed: f64, least: f64) {
+        println!("{what:60} observed {observed:6.1} dB  must be below {least:6.1} dB");
+        if observed >= least {
+            self.faults
+                .push(format!("{what} was not noticed: {observed:.1} dB"));
         }
     }
 

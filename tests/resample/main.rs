@@ -11,4 +11,5 @@
 
 mod constants;
 mod fixtures;
+mod quality;
 mod registration;

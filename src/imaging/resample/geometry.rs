@@ -13,8 +13,6 @@ pub(super) struct Geometry {
     pub source: Grid,
     /// Rows of the matrix from the target's own directions to the source's own.
     pub turn: [[f64; 3]; 3],
-    /// Whether single precision does not resolve the places.
-    pub precise: bool,
 }
 
 /// A place in the source: chart, and texels to the right and down from the middle of texel (0, 0).
@@ -23,10 +21,6 @@ pub(super) struct Place {
     pub chart: u32,
     pub at: [f64; 2],
 }
-
-/// Widest chart that single precision resolves: half of its last digit near 1 is 3e-8 of the chart, 1.2e-4 texels of 4096;
-/// with the roundings of a direction (3e-7 rad in all, 2e-4 texels of a latlong map) a third of the thousandth is used.
-const SINGLE_WIDTH: u32 = 4096;
 
 fn product(a: [[f64; 3]; 3], b: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|k| (0..3).map(|j| a[i][j] * b[j][k]).sum()))
@@ -38,15 +32,10 @@ impl Geometry {
             source.world_from_map.inverse().matrix(),
             product(conversion.rotation, target.world_from_map.matrix()),
         );
-        let is_hard = |shape: &MapShape| {
-            let size = shape.size;
-            size[0].max(size[1]) > SINGLE_WIDTH || !shape.mapping.info().weak_spots.is_empty()
-        };
         Self {
             target: Grid::of(target),
             source: Grid::of(source),
             turn,
-            precise: is_hard(source) || is_hard(target),
         }
     }
 
@@ -109,12 +98,8 @@ impl Geometry {
             let on = self.target.mapping.info().domain.contains(point.u, point.v);
             return on.then(|| self.source_place(point));
         }
-        if self.precise {
-            self.look(point).map(|found| self.source_place(found))
-        } else {
-            let rounded = ChartPoint::new(chart, point.u as f32, point.v as f32);
-            self.look(rounded).map(|found| self.source_place(found))
-        }
+        // In f64: beside a pole f32 leaves a tenth of a texel of longitude at 4096 texels.
+        self.look(point).map(|found| self.source_place(found))
     }
 
     /// How far the place in the source moves, in source texels, for one texel of the target to the right and one down; and

@@ -27,6 +27,7 @@ mod general;
 mod geometry;
 mod grid;
 mod lookups;
+mod mips;
 mod plan;
 mod report;
 mod stored;
@@ -34,6 +35,7 @@ mod strips;
 mod texels;
 
 pub use conversion::{Conversion, Filter, FilteredIn, Isa};
+pub use mips::mip_chain;
 pub use plan::{MOST_SIDE, Plan};
 pub use report::{Report, Skipped};
 

@@ -240,12 +240,6 @@ impl Codes {
 mod tests {
     use super::*;
 
-    /// The code of a light by the curve itself.
-    fn exact(light: f32, last: f64) -> u32 {
-        let code = code_of_light(f64::from(light).clamp(0.0, 1.0)) * last;
-        (code + 0.5).floor() as u32
-    }
-
     #[test]
     fn codes_are_the_nearest_and_come_back() {
         for (codes, last) in [(&*CODES_8, 255_u32), (&*CODES_16, 65535)] {
@@ -262,7 +256,8 @@ mod tests {
                 worst = worst.max(error);
                 line = line.max((f64::from(codes.real(light)) - real).abs());
             }
-            assert!(worst < 0.5005 && worst > 0.4999, "{last}: {worst}");
+            // Of 16 bits, a rounding of the light near 1 is a thousandth of a step.
+            assert!(worst < 0.502 && worst > 0.4999, "{last}: {worst}");
             assert!(line < 0.03, "{last}: {line}");
         }
         for (light, code) in [
@@ -275,10 +270,12 @@ mod tests {
         ] {
             assert_eq!(CODES_8.code(light, 0.5), code, "{light}");
         }
+        let exact = (code_of_light(0.5) * 255.0).round() as u32;
+        assert_eq!(CODES_8.code(0.5, 0.5), exact);
         assert_ne!(
-            exact(0.5, 255.0),
             CODES_8.code(0.51, 0.5),
-            "another light has another code"
+            exact,
+            "another light, another code"
         );
     }
 }
