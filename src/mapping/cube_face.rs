@@ -6,7 +6,7 @@
 //! Faces are chosen by comparing the raw components: comparisons are exact in every language and on every adapter, while
 //! rounded dot products leave holes.
 
-use super::{Layout, MappingInfo, Step};
+use super::{DirLanes, LANES, Layout, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
 /// Names of the six charts.

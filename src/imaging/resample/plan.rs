@@ -4,9 +4,12 @@ use super::ResampleError;
 use super::conversion::{Conversion, Filter, FilteredIn, Isa};
 use super::encode::Encoder;
 use super::filter::{Filtered, Sampler, reach};
+use super::fused::Fused;
 use super::general::{General, Way};
 use super::geometry::Geometry;
 use super::grid::Grid;
+use super::lane_places::LanePlaces;
+use super::lookups::Places;
 use super::report::{Report, Skipped};
 use super::stored::{Decoder, Stored, Working};
 use super::strips::{Threads, fill};
@@ -32,6 +35,8 @@ pub struct Plan {
     conversion: Conversion,
     filter: Filter,
     geometry: Geometry,
+    /// Places of many texels at once, where both mappings can.
+    lanes: Option<LanePlaces>,
     gutter: Gutter,
     threads: Threads,
     largest_footprint: f64,
@@ -72,6 +77,7 @@ impl Plan {
             conversion: conversion.clone(),
             filter,
             gutter: Gutter::new(&Grid::of(source), reach(filter)),
+            lanes: LanePlaces::new(&geometry, conversion.isa.unwrap_or(Isa::Avx512).available()),
             geometry,
             threads: Threads::new(conversion.threads),
             largest_footprint: survey.largest,
@@ -161,7 +167,47 @@ impl Plan {
             ),
             filter: self.filter,
         };
+        let encoder = self.encoder();
+        if let (Some(places), true) = (&self.lanes, self.is_plain()) {
+            let done = match (self.source.samples, self.target.samples) {
+                (SampleKind::U8, SampleKind::U8) => {
+                    Fused::new(places, source, &sampler, encoder)
+                        .map(|kernel| fill::<u8>(target, &kernel, &self.threads, progress))
+                }
+                (SampleKind::F32, SampleKind::F32) => {
+                    Fused::new(places, source, &sampler, encoder)
+                        .map(|kernel| fill::<f32>(target, &kernel, &self.threads, progress))
+                }
+                _ => None,
+            };
+            if let Some(done) = done {
+                return done;
+            }
+        }
         self.run_with(&sampler, target, progress)
+    }
+
+    /// Whether stored numbers are mixed and stored again: bilinear, three samples a pixel, nothing decoded, changed or hidden.
+    fn is_plain(&self) -> bool {
+        self.filter == Filter::Bilinear
+            && self.conversion.supersample == 1
+            && self.source.channels == Channels::Rgb
+            && self.target.channels == Channels::Rgb
+            && self.source.transfer == self.target.transfer
+            && (self.source.transfer == Transfer::Linear
+                || self.conversion.filtered_in == FilteredIn::Codes)
+            && self.conversion.exposure_ev == 0.0
+            && !self.conversion.dither
+    }
+
+    fn encoder(&self) -> Encoder {
+        Encoder {
+            working: self.working(),
+            transfer: self.target.transfer,
+            channels: self.target.channels,
+            gain: self.conversion.exposure_ev.exp2() as f32,
+            dither: self.conversion.dither,
+        }
     }
 
     fn run_with(
@@ -170,20 +216,18 @@ impl Plan {
         target: &mut EnvironmentMap,
         progress: &Progress,
     ) -> Result<(), ResampleError> {
+        let places: &dyn Places = match &self.lanes {
+            Some(lanes) => lanes,
+            None => &self.geometry,
+        };
         let kernel = General {
             way: match (self.filter, self.conversion.supersample) {
                 (Filter::Area, _) => Way::Area(&self.geometry),
-                (_, 1) => Way::Single(&self.geometry),
+                (_, 1) => Way::Single(places),
                 (_, count) => Way::Grid(&self.geometry, count),
             },
             sampler,
-            encoder: Encoder {
-                working: self.working(),
-                transfer: self.target.transfer,
-                channels: self.target.channels,
-                gain: self.conversion.exposure_ev.exp2() as f32,
-                dither: self.conversion.dither,
-            },
+            encoder: self.encoder(),
         };
         match self.target.samples {
             SampleKind::U8 => fill::<u8>(target, &kernel, &self.threads, progress),
@@ -215,7 +259,7 @@ impl Plan {
         Report {
             filter: self.filter,
             threads: self.threads.count(),
-            isa: Isa::Baseline,
+            isa: self.lanes.as_ref().map_or(Isa::Baseline, |lanes| lanes.isa),
             largest_footprint_texels: self.largest_footprint,
             skipped: skips
                 .into_iter()
