@@ -6,9 +6,7 @@
 use std::time::Instant;
 
 use sixfold::imaging::resample::{Conversion, Filter, FilteredIn, Isa, Plan};
-use sixfold::imaging::{
-    Channels, EnvironmentMap, MapShape, Progress, Raster, Samples, Transfer,
-};
+use sixfold::imaging::{Channels, EnvironmentMap, MapShape, Progress, Raster, Samples, Transfer};
 use sixfold::mapping::{Layout, MappingId};
 
 /// Times that each row is run; the median is printed, and the smallest.
@@ -40,11 +38,31 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 };
                 let rows: Vec<(&str, Conversion, &EnvironmentMap)> = vec![
                     ("latlong to cube", with(&|_| {}), &latlong),
-                    ("latlong to ccm", with(&|c| c.mapping = MappingId::Ccm), &latlong),
-                    ("latlong to eac", with(&|c| c.mapping = MappingId::Eac), &latlong),
-                    ("latlong to cube, one face", with(&|c| c.charts = 1 << 4), &latlong),
-                    ("latlong to cube, rotated", with(&|c| c.rotation = turned()), &latlong),
-                    ("latlong to cube, in light", with(&|c| c.filtered_in = FilteredIn::Light), &latlong),
+                    (
+                        "latlong to ccm",
+                        with(&|c| c.mapping = MappingId::Ccm),
+                        &latlong,
+                    ),
+                    (
+                        "latlong to eac",
+                        with(&|c| c.mapping = MappingId::Eac),
+                        &latlong,
+                    ),
+                    (
+                        "latlong to cube, one face",
+                        with(&|c| c.charts = 1 << 4),
+                        &latlong,
+                    ),
+                    (
+                        "latlong to cube, rotated",
+                        with(&|c| c.rotation = turned()),
+                        &latlong,
+                    ),
+                    (
+                        "latlong to cube, in light",
+                        with(&|c| c.filtered_in = FilteredIn::Light),
+                        &latlong,
+                    ),
                     (
                         "cube to latlong",
                         with(&|c| {
@@ -68,7 +86,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         if !wanted(&name) {
             continue;
         }
-        let source = noise(MappingId::Latlong, [2 * height, height], Layout::Single, false);
+        let source = noise(
+            MappingId::Latlong,
+            [2 * height, height],
+            Layout::Single,
+            false,
+        );
         let mut conversion =
             Conversion::new(MappingId::Cube, [height / 2, height / 2], source.shape());
         conversion.layout = Layout::Faces;
@@ -100,7 +123,11 @@ fn noise(mapping: MappingId, size: [u32; 2], layout: Layout, float: bool) -> Env
             } else {
                 Samples::U8((0..count).map(|_| next()).collect())
             };
-            let transfer = if float { Transfer::Linear } else { Transfer::Srgb };
+            let transfer = if float {
+                Transfer::Linear
+            } else {
+                Transfer::Srgb
+            };
             Raster::new(size, Channels::Rgb, transfer, samples)
         })
         .collect();
@@ -165,33 +192,49 @@ fn error(source: &EnvironmentMap, target: &EnvironmentMap, conversion: &Conversi
     let is_bytes = matches!(source.rasters()[0].samples(), Samples::U8(_));
     let in_codes = is_bytes && conversion.filtered_in == FilteredIn::Codes;
     let code = |c: f64| {
-        if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }
+        if c <= 0.003_130_8 {
+            12.92 * c
+        } else {
+            1.055 * c.powf(1.0 / 2.4) - 0.055
+        }
     };
     let [width, height] = target.shape().size;
-    let wanted = target.shape().charts.iter().enumerate().filter(|(_, p)| p.is_some());
+    let wanted = target
+        .shape()
+        .charts
+        .iter()
+        .enumerate()
+        .filter(|(_, p)| p.is_some());
     for (chart, _) in wanted {
         for index in (0..width * height).step_by(97) {
             let texel = [index % width, index / width];
             let coordinate = |k: usize| (f64::from(texel[k]) + 0.5) / f64::from([width, height][k]);
-            let point = sixfold::mapping::ChartPoint::new(chart as u32, coordinate(0), coordinate(1));
-            let Some(dir) = conversion.mapping.inverse(point) else { continue };
+            let point =
+                sixfold::mapping::ChartPoint::new(chart as u32, coordinate(0), coordinate(1));
+            let Some(dir) = conversion.mapping.inverse(point) else {
+                continue;
+            };
             let [a, b, c] = conversion.rotation;
             let row = |r: [f64; 3]| r[0] * dir.x + r[1] * dir.y + r[2] * dir.z;
             let dir = sixfold::math::Vec3::new(row(a), row(b), row(c));
-            let Some(found) = shape.mapping.forward(dir) else { continue };
+            let Some(found) = shape.mapping.forward(dir) else {
+                continue;
+            };
             let place = [
                 found.u * f64::from(shape.size[0]) - 0.5,
                 found.v * f64::from(shape.size[1]) - 0.5,
             ];
             let whole = place.map(f64::floor);
-            let inside = (0..2).all(|k| whole[k] >= 0.0 && whole[k] + 1.0 < f64::from(shape.size[k]));
+            let inside =
+                (0..2).all(|k| whole[k] >= 0.0 && whole[k] + 1.0 < f64::from(shape.size[k]));
             if !inside {
                 continue;
             }
             let rest = [place[0] - whole[0], place[1] - whole[1]];
             let tap = |x: u32, y: u32| {
                 let texel = [whole[0] as u32 + x, whole[1] as u32 + y];
-                general(source.light(found.chart, texel)).map(|c| if in_codes { code(c) } else { c })
+                general(source.light(found.chart, texel))
+                    .map(|c| if in_codes { code(c) } else { c })
             };
             let taps = [tap(0, 0), tap(1, 0), tap(0, 1), tap(1, 1)];
             let got = general(target.light(chart as u32, texel));

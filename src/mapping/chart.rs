@@ -85,6 +85,10 @@ pub trait Mapping {
     /// Whether the functions on lanes below are the mapping's own, free of branches.
     const HAS_LANES: bool = false;
 
+    /// Whether the lanes resolve directions near the y axis only as long as their x and z are small and exact: not when a
+    /// rotation has made them from large ones.
+    const LANES_HAVE_POLES: bool = false;
+
     /// [`forward`](Self::forward) of many directions at once. On ties and within an ULP of them the chart may be another of
     /// those that meet there.
     #[inline(always)]

@@ -193,8 +193,20 @@ pub fn gnomonic_lane(x: f32, y: f32, z: f32) -> (u32, f32, f32) {
     let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
     let is_z = az >= ax && az >= ay;
     let is_y = !is_z && ay >= ax;
-    let pair = if is_z { 4 } else if is_y { 2 } else { 0 };
-    let along = if is_z { z } else if is_y { y } else { x };
+    let pair = if is_z {
+        4
+    } else if is_y {
+        2
+    } else {
+        0
+    };
+    let along = if is_z {
+        z
+    } else if is_y {
+        y
+    } else {
+        x
+    };
     on_face(pair + u32::from(along < 0.0), x, y, z)
 }
 
@@ -216,7 +228,13 @@ pub fn sign_table_lane(x: f32, y: f32, z: f32) -> (u32, f32, f32) {
 fn on_face(face: u32, x: f32, y: f32, z: f32) -> (u32, f32, f32) {
     let (is_x, is_y) = (face < 2, face & 6 == 2);
     let is_negative = face & 1 != 0;
-    let along = if is_x { x } else if is_y { y } else { z };
+    let along = if is_x {
+        x
+    } else if is_y {
+        y
+    } else {
+        z
+    };
     let across = if is_x { -z } else { x };
     let down = if is_y { z } else { -y };
     // Only the y faces keep their column, and only they turn their row, when the axis is negative.

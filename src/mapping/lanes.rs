@@ -6,6 +6,11 @@
 //! [`Mapping::forward_lanes`]: super::Mapping::forward_lanes
 //! [`Mapping::inverse_lanes`]: super::Mapping::inverse_lanes
 
+#![expect(
+    clippy::needless_range_loop,
+    reason = "a lane is an index into several lists at once"
+)]
+
 use super::{ChartPoint, Mapping};
 use crate::math::{Real, Vec3};
 

@@ -59,6 +59,7 @@ impl Mapping for Latlong {
     }
 
     const HAS_LANES: bool = true;
+    const LANES_HAVE_POLES: bool = true;
 
     #[inline(always)]
     fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
@@ -78,6 +79,10 @@ impl Mapping for Latlong {
     }
 
     #[inline(always)]
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "a lane is an index into several lists at once"
+    )]
     fn inverse_lanes(_: u32, columns: [&Lane; 4], row: Line, dirs: &mut DirLanes) {
         for k in 0..LANES {
             dirs.x[k] = row[0] * columns[0][k];

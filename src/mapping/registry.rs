@@ -60,6 +60,11 @@ macro_rules! registry {
                 match self { $(Self::$mapping => <$module::$mapping as Mapping>::HAS_LANES,)+ }
             }
 
+            /// See [`Mapping::LANES_HAVE_POLES`].
+            pub fn lanes_have_poles(self) -> bool {
+                match self { $(Self::$mapping => <$module::$mapping as Mapping>::LANES_HAVE_POLES,)+ }
+            }
+
             /// See [`Mapping::forward_lanes`].
             #[inline(always)]
             pub fn forward_lanes(self, dirs: &DirLanes, points: &mut PointLanes) {

@@ -22,7 +22,11 @@ pub fn atan2_turns(y: f32, x: f32) -> (f32, f32) {
     let rest = if is_steep { -angle } else { angle };
     let base = if x < 0.0 { 0.5 - base } else { base };
     let rest = if x < 0.0 { -rest } else { rest };
-    if y < 0.0 { (-base, -rest) } else { (base, rest) }
+    if y < 0.0 {
+        (-base, -rest)
+    } else {
+        (base, rest)
+    }
 }
 
 /// (sin, cos) of an angle in turns, |turns| <= 1/8.
@@ -31,12 +35,24 @@ pub fn sin_cos_eighth(turns: f32) -> (f32, f32) {
     sin_cos_quarter(turns * 4.0)
 }
 
-/// The whole number at or below `x`, and how far `x` lies above it; |x| < 2^23.
+/// 3/2 2^23: a float of at most 2^22 added to it is rounded to a whole number, which its last bits then hold. A cast to an
+/// integer would ask every number whether it fits.
+const ROUNDING: f32 = 12_582_912.0;
+
+/// The whole number nearest to `x`, halves to even; |x| < 2^22.
+#[inline(always)]
+pub fn nearest_whole(x: f32) -> i32 {
+    ((x + ROUNDING).to_bits() as i32).wrapping_sub(ROUNDING.to_bits() as i32)
+}
+
+/// The whole number at or below `x`, and how far `x` lies above it; |x| < 2^22.
 #[inline(always)]
 pub fn floor_and_rest(x: f32) -> (i32, f32) {
-    let whole = x as i32;
-    let whole = whole - i32::from(whole as f32 > x);
-    (whole, x - whole as f32)
+    let near = (x + ROUNDING) - ROUNDING;
+    let is_above = near > x;
+    let whole = nearest_whole(x).wrapping_sub(i32::from(is_above));
+    let near = if is_above { near - 1.0 } else { near };
+    (whole, x - near)
 }
 
 #[cfg(test)]

@@ -3,17 +3,23 @@
 //! Both neighbours of a row come with one load, and all four taps are mixed without asking whether they lie on the chart. Texels
 //! whose taps do not are found again one by one with the gutter.
 
+#![expect(
+    clippy::needless_range_loop,
+    reason = "a lane is an index into several lists at once"
+)]
+
 use pulp::NullaryFnOnce;
 
 use super::encode::Encoder;
 use super::filter::Sampler;
-use super::lane_places::{LanePlaces, LaneScratch};
+use super::lane_places::{LanePlaces, LaneScratch, PlaceLanes};
 use super::lookups::Lookups;
 use super::stored::Stored;
 use super::strips::{Kernel, Run, Scratch};
 use super::texels::{Pixel, Strides};
 use crate::imaging::EnvironmentMap;
-use crate::mapping::{LANES, Lane};
+use crate::mapping::LANES;
+use crate::math::nearest_whole;
 
 /// Samples a pixel: opacity goes the general way.
 const RGB: usize = 3;
@@ -27,8 +33,30 @@ const MOST_CHARTS: usize = 16;
 #[derive(Clone, Copy)]
 struct Chart<'a, S> {
     samples: &'a [S],
-    base: usize,
-    down: usize,
+    base: u32,
+    down: u32,
+    /// Places that begin before it have both rows' samples.
+    end: u32,
+}
+
+/// Hands over the samples of both rows from `at` on.
+#[inline(always)]
+fn take<S, M: Mixing<S>>(
+    mixing: &mut M,
+    chart: &Chart<'_, S>,
+    at: u32,
+    k: usize,
+    places: &PlaceLanes,
+) {
+    let at = at as usize;
+    let first = chart.samples.get(at..at + LOAD);
+    let below = at + chart.down as usize;
+    let second = chart.samples.get(below..below + LOAD);
+    if let (Some(first), Some(second)) = (first, second)
+        && let (Some(first), Some(second)) = (first.first_chunk(), second.first_chunk())
+    {
+        mixing.take(k, first, second, places.right[k], places.below[k]);
+    }
 }
 
 /// The kernel for samples of type `S`.
@@ -36,7 +64,7 @@ pub(super) struct Fused<'a, S> {
     places: &'a LanePlaces,
     charts: [Chart<'a, S>; MOST_CHARTS],
     /// Columns and rows less one: the last texel that has a neighbour.
-    last: [i32; 2],
+    last: [u32; 2],
     sampler: &'a dyn Sampler,
     encoder: Encoder,
 }
@@ -54,6 +82,7 @@ impl<'a, S: Stored> Fused<'a, S> {
             samples: &[],
             base: 0,
             down: 0,
+            end: 0,
         };
         let mut charts = [nothing; MOST_CHARTS];
         for (chart, placement) in shape.charts.iter().enumerate() {
@@ -63,55 +92,96 @@ impl<'a, S: Stored> Fused<'a, S> {
             if strides.right != RGB as isize {
                 return None;
             }
+            let samples = S::slice(raster.samples())?;
+            let down = u32::try_from(strides.down).ok()?;
+            let end = samples.len().saturating_sub(down as usize + LOAD - 1);
             *charts.get_mut(chart)? = Chart {
-                samples: S::slice(raster.samples())?,
-                base: usize::try_from(strides.base).ok()?,
-                down: usize::try_from(strides.down).ok()?,
+                samples,
+                base: u32::try_from(strides.base).ok()?,
+                down,
+                // Counted in 32 bits: a larger picture goes the general way.
+                end: u32::try_from(samples.len()).ok().map(|_| end as u32)?,
             };
         }
         Some(Self {
             places,
             charts,
-            last: shape.size.map(|n| n as i32 - 1),
+            last: shape.size.map(|n| n - 1),
             sampler,
             encoder,
         })
     }
 
-    /// Both rows' samples from each place on. Returns whether any place has taps off its chart; those are marked.
+    /// Hands the samples of both rows at each place to `mixing`. Returns whether any place has taps off its chart; those are
+    /// marked.
     #[inline(always)]
-    fn load(
+    fn load<M: Mixing<S>>(
         &self,
-        scratch: &LaneScratch,
-        above: &mut [[S; LOAD]; LANES],
-        under: &mut [[S; LOAD]; LANES],
+        places: &PlaceLanes,
+        mixing: &mut M,
         is_off: &mut [bool; LANES],
     ) -> bool {
-        let places = &scratch.places;
-        let [last_column, last_row] = self.last;
+        let first = places.chart[0];
+        let mut difference = 0;
+        for chart in &places.chart {
+            difference |= chart ^ first;
+        }
+        if difference == 0 {
+            let chart = &self.charts[first as usize % MOST_CHARTS];
+            return self.load_from(chart, places, mixing, is_off);
+        }
+        // Charts meet in few blocks: each is asked for its lanes, and a lane counts where its own chart has it.
         let mut any = false;
         for k in 0..LANES {
-            let (column, row) = (places.column[k], places.row[k]);
             let chart = &self.charts[places.chart[k] as usize % MOST_CHARTS];
-            let at = chart.base + row.max(0) as usize * chart.down + column.max(0) as usize * RGB;
-            let is_on = (column >= 0) & (column < last_column) & (row >= 0) & (row < last_row);
-            let first = chart.samples.get(at..).and_then(<[S]>::first_chunk);
-            let second = chart
-                .samples
-                .get(at + chart.down..)
-                .and_then(<[S]>::first_chunk);
-            match (first, second) {
-                (Some(first), Some(second)) if is_on => {
-                    (above[k], under[k]) = (*first, *second);
-                    is_off[k] = false;
-                }
-                _ => {
-                    is_off[k] = true;
-                    any = true;
-                }
+            let (at, is_on) = self.at(chart, places.column[k], places.row[k]);
+            is_off[k] = !is_on;
+            any |= !is_on;
+            if is_on {
+                take(mixing, chart, at, k, places);
             }
         }
         any
+    }
+
+    /// Where the samples of a place begin; 0 where its taps leave the chart.
+    #[inline(always)]
+    fn at(&self, chart: &Chart<'a, S>, column: i32, row: i32) -> (u32, bool) {
+        let [last_column, last_row] = self.last;
+        // Negative numbers become too large ones.
+        let (column, row) = (column as u32, row as u32);
+        let at = chart
+            .base
+            .wrapping_add(row.wrapping_mul(chart.down))
+            .wrapping_add(column.wrapping_mul(RGB as u32));
+        let is_on = (column < last_column) & (row < last_row) & (at < chart.end);
+        (if is_on { at } else { 0 }, is_on)
+    }
+
+    #[inline(always)]
+    fn load_from<M: Mixing<S>>(
+        &self,
+        chart: &Chart<'a, S>,
+        places: &PlaceLanes,
+        mixing: &mut M,
+        is_off: &mut [bool; LANES],
+    ) -> bool {
+        let mut starts = [0_u32; LANES];
+        let mut off = [0_u32; LANES];
+        let mut any = 0;
+        for k in 0..LANES {
+            let (at, is_on) = self.at(chart, places.column[k], places.row[k]);
+            starts[k] = at;
+            off[k] = u32::from(!is_on);
+            any |= off[k];
+        }
+        for k in 0..LANES {
+            take(mixing, chart, starts[k], k, places);
+        }
+        if any != 0 {
+            *is_off = off.map(|off| off != 0);
+        }
+        any != 0
     }
 
     /// Finds the marked texels again, one by one.
@@ -147,49 +217,40 @@ impl<'a, S: Stored> Fused<'a, S> {
     }
 }
 
-/// One run, or the blocks of it, compiled for a set of instructions.
+/// One run, compiled for a set of instructions.
 struct Rows<'k, 'a, 'o, S, M> {
     kernel: &'k Fused<'a, S>,
     run: &'k Run,
     out: &'o mut [S],
-    mix: M,
+    mixing: M,
 }
 
-/// What becomes of the two rows of samples at each place.
-trait Mixing<S>: Copy {
-    fn mix(
-        self,
-        above: &[[S; LOAD]; LANES],
-        under: &[[S; LOAD]; LANES],
-        right: &Lane,
-        below: &Lane,
-        out: &mut [[S; RGB]; LANES],
-    );
+/// What becomes of the samples at the places of a block.
+trait Mixing<S> {
+    /// The samples of the texel at a place and of those to its right, and of the row below.
+    fn take(&mut self, k: usize, above: &[S; LOAD], under: &[S; LOAD], right: f32, below: f32);
+
+    /// The block's samples, pixel after pixel; what was not taken is left over from before.
+    fn finish(&mut self, places: &PlaceLanes) -> &[S];
 }
 
 impl<S: Stored, M: Mixing<S>> NullaryFnOnce for Rows<'_, '_, '_, S, M> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
+    fn call(mut self) {
         let (kernel, run) = (self.kernel, self.run);
         let mut scratch = LaneScratch::default();
-        let mut above = [[S::default(); LOAD]; LANES];
-        let mut under = above;
         let mut is_off = [false; LANES];
-        let mut mixed = [[S::default(); RGB]; LANES];
         for (index, out) in self.out.chunks_mut(LANES * RGB).enumerate() {
             let first = index * LANES;
             let column = run.columns.start + first as u32;
             kernel
                 .places
                 .fill_lanes(run.chart, run.row, column, &mut scratch);
-            let any = kernel.load(&scratch, &mut above, &mut under, &mut is_off);
-            let places = &scratch.places;
-            self.mix
-                .mix(&above, &under, &places.right, &places.below, &mut mixed);
-            let count = out.len();
-            out.copy_from_slice(&mixed.as_flattened()[..count]);
+            let any = kernel.load(&scratch.places, &mut self.mixing, &mut is_off);
+            let mixed = self.mixing.finish(&scratch.places);
+            out.copy_from_slice(&mixed[..out.len()]);
             if any {
                 kernel.mend(run, first, &scratch, &is_off, out);
             }
@@ -198,67 +259,69 @@ impl<S: Stored, M: Mixing<S>> NullaryFnOnce for Rows<'_, '_, '_, S, M> {
 }
 
 /// Bytes: mixed as floats, rounded to the nearest; off by half a step and 1e-4.
-#[derive(Clone, Copy)]
-struct Bytes;
+struct Bytes {
+    above: [u64; LANES],
+    under: [u64; LANES],
+    mixed: [u8; LANES * RGB],
+}
 
 impl Mixing<u8> for Bytes {
     #[inline(always)]
-    fn mix(
-        self,
-        above: &[[u8; LOAD]; LANES],
-        under: &[[u8; LOAD]; LANES],
-        right: &Lane,
-        below: &Lane,
-        out: &mut [[u8; RGB]; LANES],
-    ) {
-        let (mut upper, mut lower) = ([0_u64; LANES], [0_u64; LANES]);
-        for k in 0..LANES {
-            upper[k] = u64::from_le_bytes(above[k]);
-            lower[k] = u64::from_le_bytes(under[k]);
-        }
+    fn take(&mut self, k: usize, above: &[u8; LOAD], under: &[u8; LOAD], _: f32, _: f32) {
+        self.above[k] = u64::from_le_bytes(*above);
+        self.under[k] = u64::from_le_bytes(*under);
+    }
+
+    #[inline(always)]
+    fn finish(&mut self, places: &PlaceLanes) -> &[u8] {
         let byte = |word: u64, index: usize| ((word >> (8 * index)) as u32 & 255) as i32 as f32;
         let mut packed = [0_u32; LANES];
-        for channel in 0..RGB {
-            for k in 0..LANES {
-                let next = channel + RGB;
-                let (a, b) = (byte(upper[k], channel), byte(upper[k], next));
-                let (c, d) = (byte(lower[k], channel), byte(lower[k], next));
-                let (a, c) = (a + (b - a) * right[k], c + (d - c) * right[k]);
-                let mixed = a + (c - a) * below[k];
-                packed[k] |= ((mixed + 0.5) as i32 as u32) << (8 * channel);
-            }
-        }
         for k in 0..LANES {
-            let [r, g, b, _] = packed[k].to_le_bytes();
-            out[k] = [r, g, b];
+            let mut pixel = 0;
+            for channel in 0..RGB {
+                let next = channel + RGB;
+                let (a, b) = (byte(self.above[k], channel), byte(self.above[k], next));
+                let (c, d) = (byte(self.under[k], channel), byte(self.under[k], next));
+                let (a, c) = (a + (b - a) * places.right[k], c + (d - c) * places.right[k]);
+                let mixed = a + (c - a) * places.below[k];
+                pixel |= (nearest_whole(mixed) as u32) << (8 * channel);
+            }
+            packed[k] = pixel;
         }
+        // Four bytes at once, of which the next pixel writes over the fourth.
+        for k in 0..LANES - 1 {
+            self.mixed[RGB * k..RGB * k + 4].copy_from_slice(&packed[k].to_le_bytes());
+        }
+        let last = packed[LANES - 1].to_le_bytes();
+        self.mixed[RGB * (LANES - 1)..].copy_from_slice(&last[..RGB]);
+        &self.mixed
     }
 }
 
 /// Floats.
-#[derive(Clone, Copy)]
-struct Floats;
+struct Floats {
+    /// With room for the fourth number of the last pixel.
+    mixed: [f32; LANES * RGB + 1],
+}
 
 impl Mixing<f32> for Floats {
     #[inline(always)]
-    fn mix(
-        self,
-        above: &[[f32; LOAD]; LANES],
-        under: &[[f32; LOAD]; LANES],
-        right: &Lane,
-        below: &Lane,
-        out: &mut [[f32; RGB]; LANES],
-    ) {
-        for k in 0..LANES {
-            let mut column = [0.0; LOAD];
-            for (index, mixed) in column.iter_mut().enumerate() {
-                *mixed = above[k][index] + (under[k][index] - above[k][index]) * below[k];
-            }
-            for channel in 0..RGB {
-                let (left, next) = (column[channel], column[channel + RGB]);
-                out[k][channel] = left + (next - left) * right[k];
-            }
+    fn take(&mut self, k: usize, above: &[f32; LOAD], under: &[f32; LOAD], right: f32, below: f32) {
+        let mut column = [0.0; LOAD];
+        for c in 0..LOAD {
+            column[c] = above[c] + (under[c] - above[c]) * below;
         }
+        // Four numbers at once, of which the next pixel writes over the fourth.
+        let mut pixel = [0.0; RGB + 1];
+        for c in 0..RGB + 1 {
+            pixel[c] = column[c] + (column[c + RGB] - column[c]) * right;
+        }
+        self.mixed[RGB * k..RGB * k + 4].copy_from_slice(&pixel);
+    }
+
+    #[inline(always)]
+    fn finish(&mut self, _: &PlaceLanes) -> &[f32] {
+        &self.mixed
     }
 }
 
@@ -268,7 +331,11 @@ impl Kernel<u8> for Fused<'_, u8> {
             kernel: self,
             run,
             out,
-            mix: Bytes,
+            mixing: Bytes {
+                above: [0; LANES],
+                under: [0; LANES],
+                mixed: [0; LANES * RGB],
+            },
         });
     }
 }
@@ -279,7 +346,9 @@ impl Kernel<f32> for Fused<'_, f32> {
             kernel: self,
             run,
             out,
-            mix: Floats,
+            mixing: Floats {
+                mixed: [0.0; LANES * RGB + 1],
+            },
         });
     }
 }

@@ -66,6 +66,12 @@ impl LanePlaces {
         if !is_able || geometry.is_proportional() {
             return None;
         }
+        // Only turned about y, or upside down, small x and z stay small.
+        let [[_, b, _], [c, _, d], [_, e, _]] = geometry.turn;
+        let is_upright = [b, c, d, e].iter().all(|mixed| *mixed == 0.0);
+        if source.mapping.lanes_have_poles() && !is_upright {
+            return None;
+        }
         let line = |side: usize, index: u32| {
             let mut at = [0.0; 2];
             at[side] = f64::from(index);
@@ -140,7 +146,7 @@ impl LanePlaces {
 fn placed(base: f32, rest: f32, scale: f32, offset: f32) -> (i32, f32) {
     let (whole, part) = floor_and_rest(base * scale + offset);
     let (more, part) = floor_and_rest(rest * scale + part);
-    (whole + more, part)
+    (whole.wrapping_add(more), part)
 }
 
 struct Fill<'a> {

@@ -170,14 +170,10 @@ impl Plan {
         let encoder = self.encoder();
         if let (Some(places), true) = (&self.lanes, self.is_plain()) {
             let done = match (self.source.samples, self.target.samples) {
-                (SampleKind::U8, SampleKind::U8) => {
-                    Fused::new(places, source, &sampler, encoder)
-                        .map(|kernel| fill::<u8>(target, &kernel, &self.threads, progress))
-                }
-                (SampleKind::F32, SampleKind::F32) => {
-                    Fused::new(places, source, &sampler, encoder)
-                        .map(|kernel| fill::<f32>(target, &kernel, &self.threads, progress))
-                }
+                (SampleKind::U8, SampleKind::U8) => Fused::new(places, source, &sampler, encoder)
+                    .map(|kernel| fill::<u8>(target, &kernel, &self.threads, progress)),
+                (SampleKind::F32, SampleKind::F32) => Fused::new(places, source, &sampler, encoder)
+                    .map(|kernel| fill::<f32>(target, &kernel, &self.threads, progress)),
                 _ => None,
             };
             if let Some(done) = done {

@@ -1,12 +1,14 @@
 //! Loops compiled once for each set of instructions, and the choice between them at run time.
 
 use pulp::NullaryFnOnce;
+#[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
 
 use super::conversion::Isa;
 
 impl Isa {
     /// The best that the processor has.
+    #[cfg(target_arch = "x86_64")]
     pub fn best() -> Self {
         if V4::try_new().is_some() {
             Self::Avx512
@@ -15,6 +17,12 @@ impl Isa {
         } else {
             Self::Baseline
         }
+    }
+
+    /// The best that the processor has: other kinds have one set only.
+    #[cfg(not(target_arch = "x86_64"))]
+    pub fn best() -> Self {
+        Self::Baseline
     }
 
     /// This, or the best that the processor has where it lacks this.
@@ -36,7 +44,9 @@ impl Isa {
     #[inline(always)]
     pub(super) fn run<W: NullaryFnOnce>(self, work: W) -> W::Output {
         match self {
+            #[cfg(target_arch = "x86_64")]
             Self::Avx512 if let Some(v4) = V4::try_new() => v4.vectorize(work),
+            #[cfg(target_arch = "x86_64")]
             Self::Avx512 | Self::Avx2 if let Some(v3) = V3::try_new() => v3.vectorize(work),
             _ => work.call(),
         }
