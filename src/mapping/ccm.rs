@@ -11,9 +11,13 @@
 mod appendix_b;
 mod paper;
 
-use super::cube_face::{self, from_frame, gnomonic, sign_table};
+use super::cube_face::{
+    self, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane,
+};
 use super::{ChartPoint, Convention, Erratum, EvaluatorInfo, Mapping, MappingInfo, Step};
-use crate::math::{Real, Vec3};
+use super::{DirLanes, LANES, Lane, Line, PointLanes};
+use crate::math::{Real, Vec3, atan_unit, sin_cos_eighth};
+use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, PI, SQRT_2};
 
 /// See the [module](self).
 pub struct Ccm;
@@ -75,17 +79,58 @@ impl Mapping for Ccm {
         Some(ChartPoint::new(face, u, v).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(6) {
-            return None;
-        }
+    /// Beyond the face: meridians and latitudes go on.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
         let (sc, tc, ma) = if is_x_face(point.chart) {
             let (long, height, axis) = from_edge(point.v, point.u);
             (height, long, axis)
         } else {
             from_edge(point.u, point.v)
         };
-        Some(from_frame(point.chart, sc, tc, ma))
+        from_frame(point.chart, sc, tc, ma)
+    }
+
+    const HAS_LANES: bool = true;
+
+    #[inline(always)]
+    fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
+        points.base_u.fill(0.5);
+        points.base_v.fill(0.5);
+        for k in 0..LANES {
+            let (face, a, b) = sign_table_lane(dirs.x[k], dirs.y[k], dirs.z[k]);
+            points.chart[k] = face;
+            let is_x = face < 2;
+            let (along, across) = if is_x { (b, a) } else { (a, b) };
+            let q = 1.0 / (1.0 + along * along).sqrt();
+            let along = atan_unit(along * FRAC_1_SQRT_2 as f32) * (0.5 / HALF_EDGE_RAD) as f32;
+            let across = 0.5 * atan_unit(across * q) / atan_unit(q);
+            points.rest_u[k] = if is_x { across } else { along };
+            points.rest_v[k] = if is_x { along } else { across };
+        }
+    }
+
+    fn line(_: usize, coordinate: f64) -> Line {
+        // As the place along an edge: what `from_edge` makes of it; as the place across: the coordinate from the middle.
+        let turns = (coordinate - 0.5) * HALF_EDGE_RAD / PI;
+        let a = turns.tan_turns() * SQRT_2;
+        let q = 1.0 / (1.0 + a * a).sqrt();
+        let reach = q.atan() * FRAC_1_PI;
+        [(q * a) as f32, q as f32, reach as f32, (coordinate - 0.5) as f32]
+    }
+
+    #[inline(always)]
+    fn inverse_lanes(face: u32, columns: [&Lane; 4], row: Line, dirs: &mut DirLanes) {
+        if is_x_face(face) {
+            frame_lanes(face, dirs, |k| {
+                let (sin, cos) = sin_cos_eighth(columns[3][k] * row[2]);
+                (sin, cos * row[0], cos * row[1])
+            });
+        } else {
+            frame_lanes(face, dirs, |k| {
+                let (sin, cos) = sin_cos_eighth(row[3] * columns[2][k]);
+                (cos * columns[0][k], sin, cos * columns[1][k])
+            });
+        }
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

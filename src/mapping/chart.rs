@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::convention::{Convention, Erratum};
 use super::evaluator::EvaluatorInfo;
+use super::lanes::{self, DirLanes, Lane, Line, PointLanes};
 use super::layout::Layout;
 use crate::math::{Real, Vec3};
 
@@ -68,7 +69,51 @@ pub trait Mapping {
 
     /// The unit direction of a chart point. `None` off the chart: an index too large, a coordinate outside [0, 1] or not a
     /// number, or a point outside the disc of a disc mapping.
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>>;
+    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+        let info = &Self::INFO;
+        (point.is_on(info.chart_count()) && info.domain.contains(point.u, point.v))
+            .then(|| Self::continued(point))
+    }
+
+    /// [`inverse`](Self::inverse), continued beyond the border: the unit direction that a texel of the gutter stands for.
+    ///
+    /// Without a jump at the border; over a seam into the neighbour, and where a rim has no other side the rim's own
+    /// direction. Takes finite coordinates at most half a chart beyond; each mapping says how it goes on, and its shader does
+    /// the same.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R>;
+
+    /// Whether the functions on lanes below are the mapping's own, free of branches.
+    const HAS_LANES: bool = false;
+
+    /// Whether the lanes resolve directions near the y axis only as long as their x and z are small and exact: not when a
+    /// rotation has made them from large ones.
+    const LANES_HAVE_POLES: bool = false;
+
+    /// [`forward`](Self::forward) of many directions at once. On ties and within an ULP of them the chart may be another of
+    /// those that meet there.
+    #[inline(always)]
+    fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes)
+    where
+        Self: Sized,
+    {
+        lanes::forward_each::<Self>(dirs, points);
+    }
+
+    /// What the texels of a column (`side` 0) or row (1) share, for [`inverse_lanes`](Self::inverse_lanes); by itself the
+    /// coordinate.
+    fn line(side: usize, coordinate: f64) -> Line {
+        let _ = side;
+        [coordinate as f32, 0.0, 0.0, 0.0]
+    }
+
+    /// Directions, of any length, of texels of one row from what their columns and the row have in common.
+    #[inline(always)]
+    fn inverse_lanes(chart: u32, columns: [&Lane; 4], row: Line, dirs: &mut DirLanes)
+    where
+        Self: Sized,
+    {
+        lanes::inverse_each::<Self>(chart, columns, row, dirs);
+    }
 
     /// The formula step by step with the numbers of `dir` put in; empty for a vector that is no direction.
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step>;

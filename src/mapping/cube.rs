@@ -1,8 +1,12 @@
 //! Cube map: six pictures taken with a square field of view of 90 degrees, the gnomonic plane as it is.
 
-use super::chart::to_unit;
-use super::cube_face::{self, from_gnomonic, gnomonic, largest_component, signed};
-use super::{ChartPoint, Convention, Mapping, MappingInfo, Step};
+use super::chart::{to_signed, to_unit};
+use super::cube_face::{
+    self, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, largest_component,
+};
+use super::{
+    ChartPoint, Convention, DirLanes, LANES, Lane, Line, Mapping, MappingInfo, PointLanes, Step,
+};
 use crate::math::{Real, Vec3};
 
 /// See the [module](self).
@@ -29,9 +33,31 @@ impl Mapping for Cube {
         Some(ChartPoint::new(face, to_unit(a), to_unit(b)).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        let (a, b) = signed(point)?;
-        Some(from_gnomonic(point.chart, a, b))
+    /// Beyond the face: on along its own plane.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
+        from_gnomonic(point.chart, to_signed(point.u), to_signed(point.v))
+    }
+
+    const HAS_LANES: bool = true;
+
+    #[inline(always)]
+    fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
+        points.base_u.fill(0.5);
+        points.base_v.fill(0.5);
+        for k in 0..LANES {
+            let (face, a, b) = gnomonic_lane(dirs.x[k], dirs.y[k], dirs.z[k]);
+            points.chart[k] = face;
+            (points.rest_u[k], points.rest_v[k]) = (0.5 * a, 0.5 * b);
+        }
+    }
+
+    fn line(_: usize, coordinate: f64) -> Line {
+        [to_signed(coordinate) as f32, 0.0, 0.0, 0.0]
+    }
+
+    #[inline(always)]
+    fn inverse_lanes(face: u32, columns: [&Lane; 4], row: Line, dirs: &mut DirLanes) {
+        frame_lanes(face, dirs, |k| (columns[0][k], row[0], 1.0));
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

@@ -6,8 +6,7 @@
 //! Faces are chosen by comparing the raw components: comparisons are exact in every language and on every adapter, while
 //! rounded dot products leave holes.
 
-use super::chart::to_signed;
-use super::{ChartPoint, Layout, MappingInfo, Step};
+use super::{DirLanes, LANES, Layout, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
 /// Names of the six charts.
@@ -142,13 +141,6 @@ pub fn from_gnomonic<R: Real>(face: u32, a: R, b: R) -> Vec3<R> {
     from_frame(face, a, b, R::one()).normalized()
 }
 
-/// A chart point as (a, b) in [-1, 1]^2 on its face without any warp, or `None` off the six faces.
-pub fn signed<R: Real>(point: ChartPoint<R>) -> Option<(R, R)> {
-    point
-        .is_on(6)
-        .then(|| (to_signed(point.u), to_signed(point.v)))
-}
-
 /// The steps where the face of the largest component counts: the face, its frame, the gnomonic plane, and what `place`
 /// makes of (a, b) there.
 pub fn steps<R: Real + std::fmt::Display>(
@@ -193,4 +185,86 @@ pub fn meeting_faces<R: Real>(dir: Vec3<R>) -> Vec<u32> {
         .into_iter()
         .flatten()
         .collect()
+}
+
+/// Face and place on its gnomonic plane, without a branch; the rule of [`largest_component`] for ties.
+#[inline(always)]
+pub fn gnomonic_lane(x: f32, y: f32, z: f32) -> (u32, f32, f32) {
+    let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
+    let is_z = az >= ax && az >= ay;
+    let is_y = !is_z && ay >= ax;
+    let pair = if is_z {
+        4
+    } else if is_y {
+        2
+    } else {
+        0
+    };
+    let along = if is_z {
+        z
+    } else if is_y {
+        y
+    } else {
+        x
+    };
+    on_face(pair + u32::from(along < 0.0), x, y, z)
+}
+
+/// As [`gnomonic_lane`] with the rule of [`sign_table`].
+#[inline(always)]
+pub fn sign_table_lane(x: f32, y: f32, z: f32) -> (u32, f32, f32) {
+    let (a, b, c) = (y > -x, y > x, y > -z);
+    let (d, e, f) = (y > z, x > -z, z > x);
+    let face = if a & !b & e & !f { 0 } else { 1 };
+    let face = if !c & d & !e & !f { 5 } else { face };
+    let face = if c & !d & e & f { 4 } else { face };
+    let face = if !(a | b | c | d) { 3 } else { face };
+    let face = if a & b & c & d { 2 } else { face };
+    on_face(face, x, y, z)
+}
+
+/// A face and the place on its gnomonic plane: [`to_frame`] and the division, without a branch.
+#[inline(always)]
+fn on_face(face: u32, x: f32, y: f32, z: f32) -> (u32, f32, f32) {
+    let (is_x, is_y) = (face < 2, face & 6 == 2);
+    let is_negative = face & 1 != 0;
+    let along = if is_x {
+        x
+    } else if is_y {
+        y
+    } else {
+        z
+    };
+    let across = if is_x { -z } else { x };
+    let down = if is_y { z } else { -y };
+    // Only the y faces keep their column, and only they turn their row, when the axis is negative.
+    let across = if is_negative & !is_y { -across } else { across };
+    let down = if is_negative & is_y { -down } else { down };
+    let inverse = 1.0 / along.abs();
+    (face, across * inverse, down * inverse)
+}
+
+/// Directions of a row of a face from (sc, tc, ma) of each lane: [`from_frame`].
+#[inline(always)]
+pub fn frame_lanes(face: u32, dirs: &mut DirLanes, frame: impl Fn(usize) -> (f32, f32, f32)) {
+    match face {
+        0 => each_lane(dirs, frame, |sc, tc, ma| (ma, -tc, -sc)),
+        1 => each_lane(dirs, frame, |sc, tc, ma| (-ma, -tc, sc)),
+        2 => each_lane(dirs, frame, |sc, tc, ma| (sc, ma, tc)),
+        3 => each_lane(dirs, frame, |sc, tc, ma| (sc, -ma, -tc)),
+        4 => each_lane(dirs, frame, |sc, tc, ma| (sc, -tc, ma)),
+        _ => each_lane(dirs, frame, |sc, tc, ma| (-sc, -tc, -ma)),
+    }
+}
+
+#[inline(always)]
+fn each_lane(
+    dirs: &mut DirLanes,
+    frame: impl Fn(usize) -> (f32, f32, f32),
+    dir: impl Fn(f32, f32, f32) -> (f32, f32, f32),
+) {
+    for k in 0..LANES {
+        let (sc, tc, ma) = frame(k);
+        (dirs.x[k], dirs.y[k], dirs.z[k]) = dir(sc, tc, ma);
+    }
 }

@@ -1,8 +1,10 @@
 //! Equi-angular cube: each face is divided by angle instead of by tangent.
 
-use super::cube_face::{self, from_gnomonic, gnomonic, largest_component};
-use super::{ChartPoint, Mapping, MappingInfo, Step};
-use crate::math::{Real, Vec3};
+use super::cube_face::{
+    self, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, largest_component,
+};
+use super::{ChartPoint, DirLanes, LANES, Lane, Line, Mapping, MappingInfo, PointLanes, Step};
+use crate::math::{Real, Vec3, atan_unit};
 use std::f64::consts::FRAC_1_PI;
 
 /// See the [module](self).
@@ -23,17 +25,40 @@ impl Mapping for Eac {
         Some(ChartPoint::new(face, place(a), place(b)).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(6) {
-            return None;
-        }
+    /// Beyond the face: on along its own plane.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
         // (u - 1/2) pi/2 radians are a quarter of u - 1/2 in turns.
         let tangent = |c: R| ((c - R::half()) * R::from_f64(0.25)).tan_turns();
-        Some(from_gnomonic(
-            point.chart,
-            tangent(point.u),
-            tangent(point.v),
-        ))
+        from_gnomonic(point.chart, tangent(point.u), tangent(point.v))
+    }
+
+    const HAS_LANES: bool = true;
+
+    #[inline(always)]
+    fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
+        points.base_u.fill(0.5);
+        points.base_v.fill(0.5);
+        for k in 0..LANES {
+            let (face, a, b) = gnomonic_lane(dirs.x[k], dirs.y[k], dirs.z[k]);
+            points.chart[k] = face;
+            let place = |c: f32| atan_unit(c) * (2.0 * FRAC_1_PI) as f32;
+            (points.rest_u[k], points.rest_v[k]) = (place(a), place(b));
+        }
+    }
+
+    fn line(_: usize, coordinate: f64) -> Line {
+        let (sin, cos) = ((coordinate - 0.5) * 0.25).sin_cos_turns();
+        [sin as f32, cos as f32, 0.0, 0.0]
+    }
+
+    #[inline(always)]
+    fn inverse_lanes(face: u32, columns: [&Lane; 4], row: Line, dirs: &mut DirLanes) {
+        let [row_sin, row_cos, ..] = row;
+        // The tangents, times both cosines.
+        frame_lanes(face, dirs, |k| {
+            let (sin, cos) = (columns[0][k], columns[1][k]);
+            (sin * row_cos, row_sin * cos, cos * row_cos)
+        });
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

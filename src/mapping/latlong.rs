@@ -3,7 +3,8 @@
 //! The centre of the picture looks along +z, +x lies to the right, +y is up. Grimm and Niebruegge, equations 1 to 4.
 
 use super::{ChartPoint, Convention, Erratum, Mapping, MappingInfo, Step};
-use crate::math::{Real, Vec3};
+use super::{DirLanes, LANES, Lane, Line, PointLanes};
+use crate::math::{Real, Vec3, atan2_turns};
 use std::f64::consts::FRAC_1_PI;
 
 /// See the [module](self).
@@ -52,11 +53,42 @@ impl Mapping for Latlong {
         Some(ChartPoint::new(0, column(d), v).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(1) {
-            return None;
+    /// Beyond the chart: over the date line, and over a pole to the other side.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
+        direction(longitude(point.u), colatitude(point.v))
+    }
+
+    const HAS_LANES: bool = true;
+    const LANES_HAVE_POLES: bool = true;
+
+    #[inline(always)]
+    fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
+        for k in 0..LANES {
+            let (x, y, z) = (dirs.x[k], dirs.y[k], dirs.z[k]);
+            let (base, rest) = atan2_turns(x, z);
+            (points.base_u[k], points.rest_u[k]) = (0.5 + base, rest);
+            let (base, rest) = atan2_turns((x * x + z * z).sqrt(), y);
+            (points.base_v[k], points.rest_v[k]) = (2.0 * base, 2.0 * rest);
+            points.chart[k] = 0;
         }
-        Some(direction(longitude(point.u), colatitude(point.v)))
+    }
+
+    fn line(side: usize, coordinate: f64) -> Line {
+        let angle = if side == 0 { longitude(coordinate) } else { colatitude(coordinate) };
+        [angle.0 as f32, angle.1 as f32, 0.0, 0.0]
+    }
+
+    #[inline(always)]
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "a lane is an index into several lists at once"
+    )]
+    fn inverse_lanes(_: u32, columns: [&Lane; 4], row: Line, dirs: &mut DirLanes) {
+        for k in 0..LANES {
+            dirs.x[k] = row[0] * columns[0][k];
+            dirs.y[k] = row[1];
+            dirs.z[k] = row[0] * columns[1][k];
+        }
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

@@ -17,6 +17,7 @@ mod convention;
 pub mod cube_face;
 mod evaluator;
 mod jacobian;
+mod lanes;
 mod layout;
 mod turn;
 
@@ -25,6 +26,7 @@ pub use chart::{ChartPoint, Claims, Coverage, Domain, Mapping, MappingInfo, Step
 pub use convention::{Convention, Erratum, ForwardFn, InverseFn};
 pub use evaluator::{Cpu, Evaluator, EvaluatorError, EvaluatorInfo, SHARED_EVALUATORS};
 pub use jacobian::Jacobian;
+pub use lanes::{DirLanes, LANES, Lane, Line, PointLanes};
 pub use layout::{Cell, Layout};
 pub use turn::Turn;
 

@@ -45,9 +45,41 @@ macro_rules! registry {
                 match self { $(Self::$mapping => $module::$mapping::inverse(point),)+ }
             }
 
+            /// See [`Mapping::continued`].
+            pub fn continued<R: Real>(self, point: ChartPoint<R>) -> Vec3<R> {
+                match self { $(Self::$mapping => $module::$mapping::continued(point),)+ }
+            }
+
             /// See [`Mapping::steps`].
             pub fn steps<R: Real + std::fmt::Display>(self, dir: Vec3<R>) -> Vec<Step> {
                 match self { $(Self::$mapping => $module::$mapping::steps(dir),)+ }
+            }
+
+            /// See [`Mapping::HAS_LANES`].
+            pub fn has_lanes(self) -> bool {
+                match self { $(Self::$mapping => <$module::$mapping as Mapping>::HAS_LANES,)+ }
+            }
+
+            /// See [`Mapping::LANES_HAVE_POLES`].
+            pub fn lanes_have_poles(self) -> bool {
+                match self { $(Self::$mapping => <$module::$mapping as Mapping>::LANES_HAVE_POLES,)+ }
+            }
+
+            /// See [`Mapping::forward_lanes`].
+            #[inline(always)]
+            pub fn forward_lanes(self, dirs: &DirLanes, points: &mut PointLanes) {
+                match self { $(Self::$mapping => $module::$mapping::forward_lanes(dirs, points),)+ }
+            }
+
+            /// See [`Mapping::line`].
+            pub fn line(self, side: usize, coordinate: f64) -> Line {
+                match self { $(Self::$mapping => $module::$mapping::line(side, coordinate),)+ }
+            }
+
+            /// See [`Mapping::inverse_lanes`].
+            #[inline(always)]
+            pub fn inverse_lanes(self, chart: u32, columns: [&Lane; 4], row: Line, dirs: &mut DirLanes) {
+                match self { $(Self::$mapping => $module::$mapping::inverse_lanes(chart, columns, row, dirs),)+ }
             }
 
             /// [`Mapping::forward`] of a slice, with one dispatch; stops at the shorter of the two.

@@ -1,6 +1,7 @@
 //! Numbers: the number trait, stable angles, units in the last place, dual numbers, input points.
 
 mod arctan;
+mod branchless;
 mod double_word;
 mod dual;
 pub mod inputs;
@@ -11,6 +12,7 @@ mod vec3;
 pub use arctan::{
     ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS, atan_unit, sin_cos_turns,
 };
+pub use branchless::{atan2_turns, floor_and_rest, nearest_whole, sin_cos_eighth};
 pub use double_word::DoubleWord;
 pub use dual::Dual;
 pub use real::{Real, Textbook};

@@ -13,7 +13,7 @@ pub enum Filter {
     Bilinear,
     /// Catmull and Rom's cubic over 4 x 4 texels.
     Bicubic,
-    /// Lanczos's windowed sinc with three lobes, 6 x 6 texels.
+    /// Lanczos's windowed sinc with three lobes over 6 x 6 texels, adjusted so that it keeps cubics as they are.
     Lanczos,
     /// The mean over the texel's footprint, weighted by solid angle: neither aliases nor blurs more than it must.
     Area,
@@ -144,9 +144,14 @@ impl Conversion {
                 layout: self.layout.id(),
             },
         )?;
+        let mut pictures = 0;
         for (chart, placement) in charts.iter_mut().enumerate() {
             if self.charts & (1 << chart.min(31)) == 0 {
                 *placement = None;
+            } else if let (Layout::Faces, Some(placement)) = (self.layout, placement) {
+                // A picture for each chart that is wanted, none for the others.
+                placement.raster = pictures;
+                pictures += 1;
             }
         }
         Ok(MapShape {
