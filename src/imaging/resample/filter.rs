@@ -69,15 +69,12 @@ fn nearest<S: Stored, const N: usize>(
     )
 }
 
-/// Between the four texels around a place. A gutter texel's place that is nowhere has no light.
-pub(super) fn bilinear<S: Stored, const N: usize>(
+/// Between the four texels around a place.
+fn bilinear<S: Stored, const N: usize>(
     texels: &Texels<'_, S, N>,
     lookups: &Lookups,
     index: usize,
 ) -> Pixel {
-    if lookups.chart[index] == Lookups::NOWHERE {
-        return [0.0; 4];
-    }
     mixed(texels, lookups, index, |rest| [1.0 - rest, rest])
 }
 

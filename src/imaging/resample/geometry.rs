@@ -121,6 +121,13 @@ impl Geometry {
     /// the solid angle of the target's texel, up to a factor. Not finite at singular points.
     pub fn footprint(&self, chart: u32, at: [f64; 2]) -> Option<Footprint> {
         let point = self.target_point(chart, at);
+        let per_texel = [0, 1].map(|side| 1.0 / self.target.density(side).max(1.0));
+        if self.is_proportional() {
+            let along = |side: usize| per_texel[side] * self.source.density(side);
+            return Some(Footprint {
+                steps: [[along(0), 0.0], [0.0, along(1)]],
+            });
+        }
         let dual = ChartPoint::new(
             chart,
             Dual::<f64, 2>::variable(point.u, 0),
@@ -128,10 +135,9 @@ impl Geometry {
         );
         let found = self.look(dual)?;
         let steps = [0, 1].map(|side| {
-            let per_texel = 1.0 / self.target.density(side).max(1.0);
             [
-                found.u.derivative[side] * per_texel * self.source.density(0),
-                found.v.derivative[side] * per_texel * self.source.density(1),
+                found.u.derivative[side] * per_texel[side] * self.source.density(0),
+                found.v.derivative[side] * per_texel[side] * self.source.density(1),
             ]
         });
         Some(Footprint { steps })

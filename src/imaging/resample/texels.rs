@@ -1,5 +1,6 @@
 //! The source's texels where they lie, and the gutter around them.
 
+use super::filter::Mix;
 use super::grid::Grid;
 use super::lookups::Lookups;
 use super::stored::{Decoder, Stored};
@@ -64,8 +65,6 @@ pub(super) struct Gutter {
     per_chart: usize,
     /// Where each gutter texel of each chart is looked up.
     lookups: Lookups,
-    /// How often the gutter's light is found again from texels that may lie in the gutter themselves.
-    sweeps: u32,
 }
 
 /// A texel of a chart: one of its own, or one of the gutter.
@@ -131,7 +130,6 @@ impl Gutter {
             rows,
             per_chart,
             lookups,
-            sweeps: SWEEPS,
         }
     }
 
@@ -168,9 +166,9 @@ impl Gutter {
     }
 }
 
-/// Neighbouring gutter texels are found from each other near a rim, where no chart owns the four texels around their place.
-/// Each sweep passes light on; the weights of gutter texels are at most about a half, so that 24 leave a hundred-millionth.
-const SWEEPS: u32 = 24;
+/// Sweeps over the gutter, each finding every texel's light again from the others'. A square chart's gutter needs two, since
+/// its texels lie over texels that the neighbour owns, or over its gutter at a corner; along rims a fourth changes the sixth digit.
+const SWEEPS: u32 = 4;
 
 /// A colour to mix, and opacity. Not premultiplied.
 pub(super) type Pixel = [f32; 4];
@@ -210,45 +208,93 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
     }
 
     fn fill_gutter(&mut self, is_nearest: bool) {
-        let lookups = &self.gutter.lookups;
-        for index in 0..lookups.len() {
+        let count = self.gutter.lookups.len();
+        for index in 0..count {
             self.light[index] = self.nearest_own(index);
         }
         if is_nearest {
             return;
         }
-        for _ in 0..self.gutter.sweeps {
-            let mut moved = false;
-            for index in 0..lookups.len() {
-                let light = super::filter::bilinear(self, lookups, index);
-                moved |= light != self.light[index];
-                self.light[index] = light;
-            }
-            if !moved {
-                break;
+        for _ in 0..SWEEPS {
+            for index in 0..count {
+                self.light[index] = self.settled(index);
             }
         }
     }
 
-    /// The nearest of the four texels around a gutter texel's place that a chart owns.
+    /// The chart's own texel nearest to a gutter texel's place.
     fn nearest_own(&self, index: usize) -> Pixel {
-        let lookups = &self.gutter.lookups;
+        let Gutter {
+            lookups,
+            rows,
+            reach,
+            ..
+        } = self.gutter;
         let chart = lookups.chart[index];
         if chart == Lookups::NOWHERE {
             return [0.0; 4];
         }
-        let mut best: Option<(f32, [i32; 2])> = None;
-        for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-            let texel = [lookups.column[index] + dx, lookups.row[index] + dy];
-            let away =
-                (lookups.right[index] - dx as f32).abs() + (lookups.below[index] - dy as f32).abs();
-            if self.gutter.slot(chart, texel[0], texel[1]) == Slot::Own
-                && best.is_none_or(|(least, _)| away < least)
-            {
-                best = Some((away, texel));
+        let next = |rest: f32| i32::from(rest >= 0.5);
+        let height = rows.len() as i32 - 2 * reach;
+        let mut row = (lookups.row[index] + next(lookups.below[index])).clamp(0, height - 1);
+        let own = |row: i32| &rows[(row + reach) as usize].own;
+        // A disc's first and last rows may have no texel of their own, the middle row has.
+        while own(row).is_empty() && row != height / 2 {
+            row += (height / 2 - row).signum();
+        }
+        if own(row).is_empty() {
+            return [0.0; 4];
+        }
+        let column = lookups.column[index] + next(lookups.right[index]);
+        self.own(chart, column.clamp(own(row).start, own(row).end - 1), row)
+    }
+
+    /// The four texels around a gutter texel's place, and their weights.
+    fn around(&self, index: usize) -> impl Iterator<Item = (u32, [i32; 2], f32)> {
+        let lookups = &self.gutter.lookups;
+        let (chart, column, row) = (
+            lookups.chart[index],
+            lookups.column[index],
+            lookups.row[index],
+        );
+        let (right, below) = (lookups.right[index], lookups.below[index]);
+        [(0, 0), (1, 0), (0, 1), (1, 1)]
+            .into_iter()
+            .filter_map(move |(x, y)| {
+                let across = if x == 0 { 1.0 - right } else { right };
+                let down = if y == 0 { 1.0 - below } else { below };
+                let weight = across * down;
+                (weight > 0.0 && chart != Lookups::NOWHERE).then_some((
+                    chart,
+                    [column + x, row + y],
+                    weight,
+                ))
+            })
+    }
+
+    /// The light of a gutter texel, as between the four texels around its place.
+    ///
+    /// Just beyond a rim, the texels around that place lie just beyond the other side's rim, and theirs is this texel again.
+    /// Passing light to and fro between the two would take for ever, so where a texel of the gutter comes in, its own four are
+    /// put in its place, and what comes back to this texel is left out of the mean: that solves the pair.
+    fn settled(&self, index: usize) -> Pixel {
+        let mut mix = Mix::around(self.light[index]);
+        for (chart, [column, row], weight) in self.around(index) {
+            match self.gutter.slot(chart, column, row) {
+                Slot::Own => mix.add(self.own(chart, column, row), weight),
+                Slot::Gutter(other) if other == index => {}
+                Slot::Gutter(other) => {
+                    for (chart, [column, row], share) in self.around(other) {
+                        let slot = self.gutter.slot(chart, column, row);
+                        if slot != Slot::Gutter(index) {
+                            mix.add(self.in_slot(slot, chart, column, row), weight * share);
+                        }
+                    }
+                }
+                Slot::Beyond => {}
             }
         }
-        best.map_or([0.0; 4], |(_, [column, row])| self.own(chart, column, row))
+        mix.mean()
     }
 
     fn pixel(&self, samples: &[S], at: usize) -> Pixel {
@@ -274,7 +320,11 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
 
     /// A texel of a chart or of its gutter.
     pub fn texel(&self, chart: u32, column: i32, row: i32) -> Pixel {
-        match self.gutter.slot(chart, column, row) {
+        self.in_slot(self.gutter.slot(chart, column, row), chart, column, row)
+    }
+
+    fn in_slot(&self, slot: Slot, chart: u32, column: i32, row: i32) -> Pixel {
+        match slot {
             Slot::Own => self.own(chart, column, row),
             Slot::Gutter(index) => self.light[index],
             Slot::Beyond => [0.0; 4],
