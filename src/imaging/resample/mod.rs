@@ -27,6 +27,7 @@ mod filter;
 mod general;
 mod geometry;
 mod grid;
+mod levels;
 mod lookups;
 mod plan;
 mod report;
@@ -36,6 +37,7 @@ mod texels;
 
 pub use conversion::{Conversion, Filter, FilteredIn, Isa};
 pub use equal::{chart_size, equal_height, rotation_of_viewer};
+pub use levels::levels;
 pub use plan::{MOST_SIDE, Plan};
 pub use report::{Report, Skipped};
 
