@@ -26,6 +26,7 @@ mod raster;
 pub mod resample;
 pub mod sanitize;
 pub mod save;
+pub mod seams;
 mod shared_exponent;
 pub mod solver;
 pub mod srgb;
