@@ -55,12 +55,42 @@ pub fn open_map(
     hints: &OpenHints,
     progress: &Progress,
 ) -> Result<OpenedMap, LoadError> {
-    let _ = (hints, progress);
-    Err(LoadError {
-        problem: LoadProblem::Unclear("opening is not built yet".to_owned()),
-        name: paths
-            .first()
-            .map(|path| path.display().to_string())
-            .unwrap_or_default(),
+    let name = paths
+        .first()
+        .map(|path| path.display().to_string())
+        .unwrap_or_default();
+    let unclear = |why: String| LoadError {
+        problem: LoadProblem::Unclear(why),
+        name: name.clone(),
+    };
+    let [path] = paths else {
+        return Err(unclear("name one file".to_owned()));
+    };
+    let file = super::load::read_raster(path, progress)?;
+    let is_latlong = file.raster.width() == 2 * file.raster.height();
+    let mapping = hints
+        .mapping
+        .or(is_latlong.then_some(MappingId::Latlong))
+        .ok_or_else(|| {
+            unclear("what map it is cannot be told; name it with --from MAP".to_owned())
+        })?;
+    let layout = hints.layout.unwrap_or(mapping.info().layout);
+    let map = EnvironmentMap::from_layout(mapping, layout, vec![file.raster])
+        .map_err(|error| unclear(error.to_string()))?;
+    Ok(OpenedMap {
+        map,
+        proposals: Vec::new(),
+        chosen: Proposal {
+            mapping,
+            layout,
+            siting: Siting::Centre,
+            frame: None,
+            score: None,
+            why: "it is said to be, or has the shape".to_owned(),
+        },
+        notes: Vec::new(),
+        bad: BadTexels::default(),
+        format: file.format,
+        stored: file.stored,
     })
 }

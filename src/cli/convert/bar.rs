@@ -59,7 +59,9 @@ const STEPS: u64 = 1000;
 
 fn bar() -> ProgressBar {
     let bar = ProgressBar::new(STEPS);
-    if let Ok(style) = ProgressStyle::with_template("{msg:12} {wide_bar} {percent:>3} %, {eta} left") {
+    if let Ok(style) =
+        ProgressStyle::with_template("{msg:12} {wide_bar} {percent:>3} %, {eta} left")
+    {
         bar.set_style(style);
     }
     bar

@@ -18,9 +18,6 @@ pub(in crate::cli) enum ConvertError {
     /// Its pictures are not what they are said to be.
     #[error("{0}: {1}")]
     Shape(ShapeError, String),
-    /// It is not said what comes in, and it cannot be told.
-    #[error("{0}")]
-    Unclear(String),
     /// The conversion cannot be done.
     #[error(transparent)]
     Resample(#[from] ResampleError),

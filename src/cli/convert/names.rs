@@ -91,7 +91,10 @@ impl Name {
     /// The frame whose file has this name.
     fn frame_of(&self, name: &OsString) -> Option<u64> {
         let name = name.to_str()?;
-        let number = self.parts.iter().position(|p| matches!(p, Part::Number(_)))?;
+        let number = self
+            .parts
+            .iter()
+            .position(|p| matches!(p, Part::Number(_)))?;
         let before: usize = self.parts[..number]
             .iter()
             .map(|part| match part {
@@ -187,7 +190,14 @@ mod tests {
     fn frames_are_those_that_there_are_in_their_order() {
         let folder = tempfile::tempdir().unwrap();
         for file in [
-            "f_0010.png", "f_0009.png", "f_10000.png", "f_8.png", "f_0011.exr", "g_0012.png", "f_00013.png", "f_0x14.png",
+            "f_0010.png",
+            "f_0009.png",
+            "f_10000.png",
+            "f_8.png",
+            "f_0011.exr",
+            "g_0012.png",
+            "f_00013.png",
+            "f_0x14.png",
         ] {
             std::fs::write(folder.path().join(file), "").unwrap();
         }

@@ -46,12 +46,7 @@ pub(in crate::cli) struct ConvertOptions {
     )]
     pub arrange: Option<String>,
     /// Where the samples of IN sit
-    #[arg(
-        long,
-        value_enum,
-        value_name = "WHERE",
-        help_heading = "What comes in"
-    )]
+    #[arg(long, value_enum, value_name = "WHERE", help_heading = "What comes in")]
     pub from_samples: Option<SamplesAt>,
     /// Read frames of WxH pixels from standard input until it ends and write each converted frame to standard output, in
     /// the same format: rgb24, rgb48le or rgbf32le
@@ -124,12 +119,7 @@ pub(in crate::cli) struct ConvertOptions {
     )]
     pub supersample: Option<u32>,
     /// What is mixed: light, or the stored codes as they are (`raw`; faster, darkens what is mixed)
-    #[arg(
-        long,
-        value_enum,
-        default_value = "linear",
-        help_heading = "Light"
-    )]
+    #[arg(long, value_enum, default_value = "linear", help_heading = "Light")]
     pub transfer: Mixed,
     /// Make it brighter by EV stops, or darker
     #[arg(
@@ -400,7 +390,10 @@ mod tests {
 
     #[test]
     fn every_filter_has_its_name() {
-        let names: Vec<&str> = FilterName::value_variants().iter().map(|f| f.0.id()).collect();
+        let names: Vec<&str> = FilterName::value_variants()
+            .iter()
+            .map(|f| f.0.id())
+            .collect();
         assert_eq!(names, Filter::ALL.map(Filter::id));
     }
 }

@@ -192,16 +192,33 @@ mod tests {
             assert_eq!(back, bytes, "{format}");
             assert!(!read(&mut &bytes[..0], &mut raster, 2).unwrap());
             let cut = read(&mut &bytes[1..], &mut raster, 3).unwrap_err();
-            let ConvertError::CutShort { frame, bytes: came, whole } = cut else {
+            let ConvertError::CutShort {
+                frame,
+                bytes: came,
+                whole,
+            } = cut
+            else {
                 panic!("{cut}");
             };
-            assert_eq!((frame, came as u64 + 1, whole), (3, whole, bytes.len() as u64));
+            assert_eq!(
+                (frame, came as u64 + 1, whole),
+                (3, whole, bytes.len() as u64)
+            );
         }
     }
 
     #[test]
     fn sizes_that_cannot_be_are_refused() {
-        for size in ["0x1", "1x0", "-1x2", "12", "x", "99999999999x1", "49152x49152", "70000x1"] {
+        for size in [
+            "0x1",
+            "1x0",
+            "-1x2",
+            "12",
+            "x",
+            "99999999999x1",
+            "49152x49152",
+            "70000x1",
+        ] {
             let line = frames(["rgb24", size]).unwrap_err();
             assert!(!line.contains('\n') && line.contains(size), "{line}");
         }

@@ -147,11 +147,14 @@ fn copy_time(bytes: u64, threads: usize) -> Option<Duration> {
         .map(|_| {
             let start = Instant::now();
             std::thread::scope(|scope| {
-                for (from, to) in from.chunks(part).zip(to.chunks_mut(part)).skip(1) {
+                let mut parts = from.chunks(part).zip(to.chunks_mut(part));
+                let own = parts.next();
+                for (from, to) in parts {
                     scope.spawn(|| to.copy_from_slice(from));
                 }
-                let (from, to) = (&from[..part], &mut to[..part]);
-                to.copy_from_slice(from);
+                if let Some((from, to)) = own {
+                    to.copy_from_slice(from);
+                }
             });
             // What nobody reads need not be written.
             std::hint::black_box(&mut to);
@@ -165,7 +168,9 @@ fn copy_time(bytes: u64, threads: usize) -> Option<Duration> {
 /// Most memory that the process has had, in bytes; `None` where the system does not tell.
 fn peak_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
     let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kib * 1024)
 }
@@ -177,7 +182,10 @@ mod tests {
     #[test]
     fn a_copy_takes_time_and_more_bytes_more_of_it() {
         assert_eq!(copy_time(0, 2), None);
-        let (small, large) = (copy_time(1 << 10, 1).unwrap(), copy_time(1 << 25, 1).unwrap());
+        let (small, large) = (
+            copy_time(1 << 10, 1).unwrap(),
+            copy_time(1 << 25, 1).unwrap(),
+        );
         assert!(small > Duration::ZERO && large > small);
         assert!(copy_time(3, 8).is_some(), "more threads than bytes");
     }

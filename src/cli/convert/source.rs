@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use super::error::ConvertError;
 use super::names::Name;
+use crate::imaging::detect::Proposal;
+use crate::imaging::solver::solve;
 use crate::imaging::{
     Channels, Environment, EnvironmentMap, OpenHints, Progress, Raster, Samples, Stored, Transfer,
     computed, open_map,
@@ -19,7 +21,11 @@ pub(super) struct Source {
 }
 
 /// The map of a file, or of six.
-pub(super) fn open(path: PathBuf, hints: &OpenHints, progress: &Progress) -> Result<Source, ConvertError> {
+pub(super) fn open(
+    path: PathBuf,
+    hints: &OpenHints,
+    progress: &Progress,
+) -> Result<Source, ConvertError> {
     let opened = open_map(&[path], hints, progress)?;
     Ok(Source {
         map: opened.map,
@@ -35,7 +41,9 @@ pub(super) fn built_in(
     progress: &Progress,
 ) -> Result<Source, ConvertError> {
     // Small ones are computed larger than needed: their lines are drawn for the usual size.
-    let rows = rows.unwrap_or(0).clamp(computed::DEFAULT_HEIGHT, crate::imaging::load::MOST_HEIGHT);
+    let rows = rows
+        .unwrap_or(0)
+        .clamp(computed::DEFAULT_HEIGHT, crate::imaging::load::MOST_HEIGHT);
     let image = environment.image_at(rows, progress)?.image;
     let size = [image.width(), image.height()];
     let samples = Samples::F32(image.into_pixels().into_flattened());
@@ -43,7 +51,8 @@ pub(super) fn built_in(
     let raster = Raster::new(size, Channels::Rgb, Transfer::Linear, samples);
     let rasters = raster.into_iter().collect();
     Ok(Source {
-        map: EnvironmentMap::from_layout(MappingId::Latlong, Layout::Single, rasters).map_err(shaped)?,
+        map: EnvironmentMap::from_layout(MappingId::Latlong, Layout::Single, rasters)
+            .map_err(shaped)?,
         // Photographs are stored so, and no pattern needs more.
         stored: Stored::Half,
         notes: Vec::new(),
@@ -55,9 +64,13 @@ pub(super) fn frames(name: &Name) -> Result<Vec<u64>, ConvertError> {
     /// How six files name their first face.
     const FIRST_FACES: [&str; 6] = ["px", "posx", "right", "+x", "r", "R"];
     let shown = || name.path().display().to_string();
-    let frames = |name: &Name| name.frames().map_err(|error| ConvertError::Folder(error, shown()));
+    let frames = |name: &Name| {
+        name.frames()
+            .map_err(|error| ConvertError::Folder(error, shown()))
+    };
     if !name.has_face() {
-        return frames(name).and_then(|frames| some(frames).ok_or_else(|| ConvertError::NoFrames(shown())));
+        return frames(name)
+            .and_then(|frames| some(frames).ok_or_else(|| ConvertError::NoFrames(shown())));
     }
     for face in FIRST_FACES {
         if let Some(frames) = some(frames(&name.of_face(face))?) {
@@ -69,4 +82,32 @@ pub(super) fn frames(name: &Name) -> Result<Vec<u64>, ConvertError> {
 
 fn some(list: Vec<u64>) -> Option<Vec<u64>> {
     (!list.is_empty()).then_some(list)
+}
+
+/// What a map seems to be, a line for each proposal and each thing to know.
+pub(super) fn look(
+    path: PathBuf,
+    hints: &OpenHints,
+    progress: &Progress,
+) -> Result<String, ConvertError> {
+    let opened = open_map(&[path], hints, progress)?;
+    let line = |proposal: &Proposal| {
+        let score = proposal
+            .score
+            .map_or("-".to_owned(), |score| format!("{score:.2}"));
+        let frame = proposal.frame.map_or("-", |frame| frame.id);
+        format!(
+            "{}\t{}\t{frame}\t{score}\t{}\n",
+            proposal.mapping,
+            proposal.layout.id(),
+            proposal.why
+        )
+    };
+    let mut text = "mapping\tlayout\tframe\tseams\twhy\n".to_owned();
+    text.extend(opened.proposals.iter().map(line));
+    if let Some(solution) = solve(opened.map.shape(), opened.map.rasters()) {
+        text.push_str(&format!("{}\n{}\n", solution.sentence(), solution.option()));
+    }
+    text.extend(opened.notes.iter().map(|note| format!("{note}\n")));
+    Ok(text)
 }

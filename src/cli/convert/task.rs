@@ -50,7 +50,7 @@ pub(super) enum Output {
 }
 
 /// Files of one format.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct FilesOut {
     pub name: Name,
     pub format: Format,
@@ -117,6 +117,19 @@ impl Task {
         }
     }
 
+    /// Fails early when a file of a frame may not be written, as far as its names are known before the map is.
+    ///
+    /// # Errors
+    /// As [`atomic::check_name`].
+    pub fn check_free(&self, files: &FilesOut, frame: u64) -> Result<(), ConvertError> {
+        let Some(mapping) = self.options.to.or(self.options.from) else {
+            return Ok(());
+        };
+        let mut conversion = Conversion::new(mapping, [1, 1], &PLAIN_SHAPE);
+        conversion.charts = self.charts(mapping)?;
+        files.check(&files.paths(&conversion, frame))
+    }
+
     /// How many times the resampling is timed.
     pub fn repeat(&self) -> u32 {
         self.options.repeat.unwrap_or(1)
@@ -148,7 +161,9 @@ impl Task {
     pub fn target(&self, source: &MapShape, stored_in: Stored) -> Result<Target, ConvertError> {
         let options = &self.options;
         let mapping = options.to.unwrap_or(source.mapping);
-        let height = options.size.unwrap_or_else(|| equal_height(mapping, source));
+        let height = options
+            .size
+            .unwrap_or_else(|| equal_height(mapping, source));
         let layout = self.layout(mapping)?;
         let mut conversion = Conversion::new(mapping, chart_size(mapping, height), source);
         conversion.layout = layout;
@@ -195,7 +210,9 @@ impl Task {
             }
         }
         if options.dither && conversion.samples == SampleKind::F32 {
-            return refuse("floating numbers have no steps that noise could hide; leave --dither out");
+            return refuse(
+                "floating numbers have no steps that noise could hide; leave --dither out",
+            );
         }
         conversion.dither = options.dither;
         Ok(Target { conversion, save })
@@ -225,7 +242,9 @@ impl Task {
         };
         let layout = layout(word, mapping)?;
         match (layout == Layout::Faces, files) {
-            (true, None) => refuse("a raw frame is one picture; choose another --layout than faces"),
+            (true, None) => {
+                refuse("a raw frame is one picture; choose another --layout than faces")
+            }
             (false, Some(_)) if has_face => refuse(format!(
                 "%f stands for a file of each face, which `{word}` is not; leave --layout or %f out"
             )),
@@ -233,9 +252,9 @@ impl Task {
                 "{} holds six faces by itself; leave --layout out",
                 files.format.name()
             )),
-            (true, Some(_)) if !has_face && count > 1 && !(holds_faces && count == 6) => refuse(
-                "`faces` is a file for each face; put %f where its name shall stand in OUT",
-            ),
+            (true, Some(_)) if !has_face && count > 1 && !(holds_faces && count == 6) => {
+                refuse("`faces` is a file for each face; put %f where its name shall stand in OUT")
+            }
             _ => Ok(layout),
         }
     }
@@ -272,12 +291,18 @@ impl Task {
     }
 
     /// OpenEXR's attribute.
-    fn envmap(&self, mapping: MappingId, layout: Layout) -> Result<Option<EnvmapKind>, ConvertError> {
+    fn envmap(
+        &self,
+        mapping: MappingId,
+        layout: Layout,
+    ) -> Result<Option<EnvmapKind>, ConvertError> {
         match (self.options.envmap, mapping, layout) {
             (false, ..) => Ok(None),
             (true, MappingId::Latlong, _) => Ok(Some(EnvmapKind::Latlong)),
             (true, MappingId::Cube, Layout::Column) => Ok(Some(EnvmapKind::Cube)),
-            _ => refuse("--envmap marks a latlong, or a cube in a column; choose --to latlong, or --to cube --layout column"),
+            _ => refuse(
+                "--envmap marks a latlong, or a cube in a column; choose --to latlong, or --to cube --layout column",
+            ),
         }
     }
 
@@ -385,12 +410,15 @@ fn layout(word: &str, mapping: MappingId) -> Result<Layout, ConvertError> {
 /// What cannot be asked for at once, whatever the map is.
 fn check_together(options: &ConvertOptions) -> Result<(), ConvertError> {
     let is_pipe = |path: &std::path::Path| path.as_os_str() == "-";
-    let pipes = [Some(&options.input), options.output.as_ref()].map(|p| p.is_some_and(|p| is_pipe(p)));
+    let pipes =
+        [Some(&options.input), options.output.as_ref()].map(|p| p.is_some_and(|p| is_pipe(p)));
     if options.raw.is_none() && pipes.contains(&true) {
         return refuse("`-` needs --raw FORMAT WxH, which says what the frames in the pipe are");
     }
     if options.raw.is_some() && pipes != [true, true] {
-        return refuse("--raw reads standard input and writes standard output; give `- -` for IN and OUT");
+        return refuse(
+            "--raw reads standard input and writes standard output; give `- -` for IN and OUT",
+        );
     }
     if options.raw.is_some() && options.from.is_none() {
         return refuse("a raw frame does not tell what map it is; name it with --from MAP");
@@ -398,10 +426,15 @@ fn check_together(options: &ConvertOptions) -> Result<(), ConvertError> {
     if options.from_frame.is_some() && options.arrange.is_some() {
         return refuse("--from-frame and --arrange both say which face is which; leave one out");
     }
-    if options.to_frame.is_some() && options.envmap && options.to_frame.as_deref() != Some("openexr") {
+    if options.to_frame.is_some()
+        && options.envmap
+        && options.to_frame.as_deref() != Some("openexr")
+    {
         return refuse("--envmap promises OpenEXR's axes; leave --to-frame out");
     }
-    let is_area = options.filter.is_some_and(|filter| filter.0 == Filter::Area);
+    let is_area = options
+        .filter
+        .is_some_and(|filter| filter.0 == Filter::Area);
     if is_area && options.supersample.is_some_and(|count| count > 1) {
         return refuse("`area` covers the whole texel already; leave --supersample out");
     }
@@ -429,7 +462,9 @@ fn check_together(options: &ConvertOptions) -> Result<(), ConvertError> {
         (options.force, "--force"),
         (options.json, "--json"),
     ];
-    let first = |list: &[(bool, &'static str)]| list.iter().find(|(given, _)| *given).map(|(_, name)| *name);
+    let first = |list: &[(bool, &'static str)]| {
+        list.iter().find(|(given, _)| *given).map(|(_, name)| *name)
+    };
     if options.inspect {
         let useless = first(&shapes_output).or_else(|| first(&files_only));
         return useless.map_or(Ok(()), |name| {
@@ -439,7 +474,9 @@ fn check_together(options: &ConvertOptions) -> Result<(), ConvertError> {
     if options.raw.is_some() {
         let repeat = options.repeat.map(|_| "--repeat");
         return first(&files_only).or(repeat).map_or(Ok(()), |name| {
-            refuse(format!("a pipe of raw frames has no use for {name}; leave it out"))
+            refuse(format!(
+                "a pipe of raw frames has no use for {name}; leave it out"
+            ))
         });
     }
     Ok(())
@@ -482,7 +519,10 @@ fn input(options: &ConvertOptions) -> Result<Input, ConvertError> {
     // A file of that name comes first.
     if let Some(environment) = built_in(options) {
         let said = [
-            (options.from.is_some_and(|from| from != MappingId::Latlong), "--from"),
+            (
+                options.from.is_some_and(|from| from != MappingId::Latlong),
+                "--from",
+            ),
             (options.from_frame.is_some(), "--from-frame"),
             (options.arrange.is_some(), "--arrange"),
             (options.from_samples.is_some(), "--from-samples"),
@@ -512,9 +552,17 @@ fn files_out(options: &ConvertOptions, path: PathBuf) -> Result<FilesOut, Conver
     let format = format_of_path(&path).map_err(|error| ConvertError::usage(error.to_string()))?;
     let name = Name::new(&path);
     let misplaced = [
-        (options.mips && !format.is_container(), "--mips", ".ktx2 or .dds"),
+        (
+            options.mips && !format.is_container(),
+            "--mips",
+            ".ktx2 or .dds",
+        ),
         (options.zstd && format != Format::Ktx2, "--zstd", ".ktx2"),
-        (options.quality.is_some() && format != Format::Jpeg, "--quality", ".jpg"),
+        (
+            options.quality.is_some() && format != Format::Jpeg,
+            "--quality",
+            ".jpg",
+        ),
         (options.envmap && format != Format::Exr, "--envmap", ".exr"),
     ];
     if let Some((_, option, ending)) = misplaced.iter().find(|(is_so, ..)| *is_so) {
@@ -539,7 +587,10 @@ fn files_out(options: &ConvertOptions, path: PathBuf) -> Result<FilesOut, Conver
         ));
     }
     if name.has_face() && format.is_container() {
-        return refuse(format!("{} holds six faces by itself; leave %f out", format.name()));
+        return refuse(format!(
+            "{} holds six faces by itself; leave %f out",
+            format.name()
+        ));
     }
     Ok(FilesOut {
         name,

@@ -49,7 +49,13 @@ mod tests {
                 if face == 2 {
                     texels[bright * 3] = 64.0;
                 }
-                Raster::new([8, 8], Channels::Rgb, Transfer::Linear, Samples::F32(texels)).unwrap()
+                Raster::new(
+                    [8, 8],
+                    Channels::Rgb,
+                    Transfer::Linear,
+                    Samples::F32(texels),
+                )
+                .unwrap()
             };
             let rasters = (0..6).map(raster).collect();
             EnvironmentMap::from_layout(MappingId::Cube, Layout::Faces, rasters).unwrap()
@@ -62,7 +68,10 @@ mod tests {
             let sizes: Vec<_> = levels.iter().map(|level| level.shape().size).collect();
             assert_eq!(sizes, [[8, 8], [4, 4], [2, 2], [1, 1]]);
             let last = &levels[3];
-            (0..6).map(|face| f64::from(last.light(face, [0, 0])[0])).sum::<f64>() / 6.0
+            (0..6)
+                .map(|face| f64::from(last.light(face, [0, 0])[0]))
+                .sum::<f64>()
+                / 6.0
         };
         // Solid angles of the texels at the corner and at the middle of a face of 8 x 8, over that of all 4 pi.
         let share = |a: f64, b: f64| {
@@ -72,7 +81,10 @@ mod tests {
         for (bright, a, b) in [(0, 0.75, 1.0), (27, 0.0, 0.25)] {
             let (mean, exact) = (last_mean(bright), 64.0 * share(a, b));
             println!("texel {bright}: mean {mean}, exact {exact}");
-            assert!((mean / exact - 1.0).abs() < 0.05, "{mean} instead of {exact}");
+            assert!(
+                (mean / exact - 1.0).abs() < 0.05,
+                "{mean} instead of {exact}"
+            );
         }
     }
 }
