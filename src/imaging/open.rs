@@ -77,6 +77,18 @@ pub fn open_map(
     let layout = hints.layout.unwrap_or(mapping.info().layout);
     let map = EnvironmentMap::from_layout(mapping, layout, vec![file.raster])
         .map_err(|error| unclear(error.to_string()))?;
+    let (mut shape, rasters) = map.into_parts();
+    if let Some(frame) = hints.frame {
+        let applied = shape.apply_frame(frame, layout);
+        applied.map_err(|error| unclear(error.to_string()))?;
+    }
+    if let Some(arrangement) = &hints.arrange {
+        shape.arrange(arrangement);
+    }
+    if let Some(siting) = hints.siting {
+        shape.siting = siting;
+    }
+    let map = EnvironmentMap::new(shape, rasters).map_err(|error| unclear(error.to_string()))?;
     Ok(OpenedMap {
         map,
         proposals: Vec::new(),
