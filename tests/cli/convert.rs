@@ -78,7 +78,7 @@ fn every_option_does_something() {
         assert!(at("other.png") == plain, "{option}");
     }
     for (one, other) in [
-        ("--filter nearest", "--filter lanczos"),
+        ("--filter nearest --size 9", "--filter lanczos --size 9"),
         ("--depth 8", "--depth 16"),
         ("--to eac", "--to ccm"),
         ("--size 8", "--size 9"),
