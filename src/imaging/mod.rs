@@ -16,6 +16,7 @@ pub mod container;
 pub mod detect;
 mod environment;
 mod environment_map;
+mod evenness;
 mod file;
 mod image;
 pub mod load;

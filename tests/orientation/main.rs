@@ -1,4 +1,6 @@
 //! Which way round maps are: frames of programs, seams, the face solver, and telling what a picture is.
 
+mod detecting;
 mod scenes;
+mod seams;
 mod solving;
