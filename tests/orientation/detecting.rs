@@ -12,7 +12,7 @@ fn detected(laid: &Laid, scene: Scene) -> Detection {
 }
 
 fn first(detection: &Detection) -> (MappingId, Layout) {
-    let first = detection.proposals.first().expect("nothing was proposed");
+    let first = &detection.proposals[0];
     (first.mapping, first.layout)
 }
 
