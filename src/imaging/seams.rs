@@ -7,8 +7,8 @@
 use std::f64::consts::TAU;
 
 use super::{MapShape, Placement, Raster, Samples, Transfer};
+use crate::mapping::MappingId;
 use crate::mapping::cube_face::{Side, across};
-use crate::mapping::{Domain, MappingId};
 
 /// Most texels that are asked along a seam: the mean of so many differences is as good as that of all.
 pub(super) const MOST_ALONG: u32 = 256;
@@ -264,54 +264,5 @@ fn angles() -> impl Iterator<Item = [f64; 2]> {
     (0..MOST_ALONG).map(|i| {
         let (sin, cos) = (f64::from(i) / f64::from(MOST_ALONG) * TAU).sin_cos();
         [cos, sin]
-    })
-}
-
-/// Whether a picture is empty outside of the disc in a square part of it: all of one colour in the four corners.
-pub(super) fn has_empty_corners(raster: &Raster, [left, top]: [u32; 2], size: [u32; 2]) -> bool {
-    let corner = lightness(raster, [left, top]);
-    let is_outside = |x: u32, y: u32| {
-        let place =
-            [(x, size[0]), (y, size[1])].map(|(c, size)| (f64::from(c) + 0.5) / f64::from(size));
-        // A texel's width of slack: the rim's own texels are drawn half over by some.
-        let slack = 2.0 / f64::from(size[0].min(size[1]));
-        !Domain::Disc.contains(shrunk(place[0], slack), shrunk(place[1], slack))
-    };
-    is_even(raster, [left, top], size, corner, is_outside)
-}
-
-/// A place drawn towards the middle by a share.
-fn shrunk(c: f64, by: f64) -> f64 {
-    0.5 + (c - 0.5) * (1.0 - by)
-}
-
-/// Whether a part of a picture is all of one colour.
-pub(super) fn is_empty(raster: &Raster, [left, top]: [u32; 2], size: [u32; 2]) -> bool {
-    is_even(
-        raster,
-        [left, top],
-        size,
-        lightness(raster, [left, top]),
-        |_, _| true,
-    )
-}
-
-fn is_even(
-    raster: &Raster,
-    [left, top]: [u32; 2],
-    size: [u32; 2],
-    color: Option<[f32; 3]>,
-    counts: impl Fn(u32, u32) -> bool,
-) -> bool {
-    // JPEG rings by a few codes beside an edge.
-    const RINGING: f64 = 12.0 / 255.0;
-    let Some(color) = color else {
-        return false;
-    };
-    let mut texels = spread(size[1], 64).flat_map(|y| spread(size[0], 64).map(move |x| [x, y]));
-    texels.all(|[x, y]| {
-        !counts(x, y)
-            || lightness(raster, [left + x, top + y])
-                .is_some_and(|c| difference(c, color) < RINGING)
     })
 }

@@ -1,9 +1,7 @@
 //! Surroundings as functions of the direction, and maps of them: every texel's value is the surroundings' at its own direction.
 
-use sixfold::imaging::computed::{self, Pattern};
 use sixfold::imaging::{
-    Channels, EnvironmentMap, Image, MapShape, Progress, Raster, SampleKind, Samples, Siting,
-    Transfer,
+    Channels, EnvironmentMap, MapShape, Raster, SampleKind, Samples, Siting, Transfer,
 };
 use sixfold::mapping::{Arrangement, Axes, ChartPoint, Layout, MappingId};
 use sixfold::math::Vec3;
@@ -67,16 +65,6 @@ pub fn photograph(d: Vec3<f64>) -> [f32; 3] {
 /// The same everywhere.
 pub fn constant(_: Vec3<f64>) -> [f32; 3] {
     [0.3; 3]
-}
-
-/// The direction itself.
-pub fn direction(d: Vec3<f64>) -> [f32; 3] {
-    [d.x as f32, d.y as f32, d.z as f32]
-}
-
-/// The labelled environment, latlong.
-pub fn labelled() -> Image {
-    computed::compute(Pattern::LabelledFaces, 512, &Progress::new()).unwrap()
 }
 
 /// How a map is laid out.

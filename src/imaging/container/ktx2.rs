@@ -484,15 +484,16 @@ fn samples(texel: TexelFormat) -> Vec<Sample> {
         (Stored::Half, _) => float(16),
         (Stored::F32, _) => float(32),
         (Stored::Rgb9e5, _) => {
-            // Of the exponent the bias and the largest; of the mantissas that which gives 1 with the exponent 15 would be
-            // 512, beyond 9 bits. 8448 is the format's own figure (Data Format Specification, table of shared exponents).
+            // What stands for 1 is 256 * 2^(16 - 24): the mantissa 256 below the exponent 16. Of the exponent the samples say
+            // bias and largest.
+            const ONE: u32 = 16 << 9 | 256;
             let pair = |k: u32| {
                 let mantissa = Sample {
                     first_bit: 9 * k,
                     bits: 9,
                     kind: CHANNELS[k as usize],
                     lowest: 0,
-                    highest: 8448,
+                    highest: ONE,
                 };
                 let exponent = Sample {
                     first_bit: 27,

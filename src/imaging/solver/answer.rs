@@ -1,6 +1,7 @@
 //! The answer in words.
 
-use super::{MEETS, Solution};
+use super::Solution;
+use crate::imaging::detect::MEETS;
 use crate::mapping::cube_face::FACES;
 use crate::mapping::{Arrangement, Held};
 

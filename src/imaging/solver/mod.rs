@@ -10,6 +10,7 @@ mod search;
 
 use self::borders::Borders;
 use self::search::{Cube, Way, best_turned, best_ways};
+use super::detect::MEETS;
 use super::seams::ratio;
 use super::{MapShape, Raster};
 use crate::mapping::{Arrangement, Axes};
@@ -18,9 +19,6 @@ pub use code::{ShaderLanguage, lookup_code};
 
 /// How many times worse a rival must meet, on the seams where it differs, to be ruled out.
 const CLEARLY: f64 = 1.5;
-
-/// Seams that differ this many times as much as the texels beside them are none.
-pub(super) const MEETS: f64 = 4.0;
 
 /// A mean difference that is as good as none: what rounding to 8 bits leaves.
 const ROUNDING: f64 = 0.25 / 255.0;
