@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release --no-default-features --example measure_convert [NAME ...]`; names choose rows, all without.
 
+#![expect(clippy::print_stdout, reason = "its output is the table")]
+
 use std::time::Instant;
 
 use sixfold::imaging::resample::{Conversion, Filter, FilteredIn, Isa, Plan};
@@ -21,8 +23,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
     for float in [false, true] {
         let kind = if float { "f32" } else { "u8" };
-        let latlong = noise(MappingId::Latlong, [4096, 2048], Layout::Single, float);
-        let cube = noise(MappingId::Cube, [1024, 1024], Layout::Faces, float);
+        let latlong = noise(MappingId::Latlong, [4096, 2048], Layout::Single, float)?;
+        let cube = noise(MappingId::Cube, [1024, 1024], Layout::Faces, float)?;
         for isa in [Isa::Avx512, Isa::Avx2, Isa::Baseline] {
             for threads in [1, 2] {
                 let with = |change: &dyn Fn(&mut Conversion)| {
@@ -108,7 +110,7 @@ fn turned() -> [[f64; 3]; 3] {
     [[c, 0.0, s], [t * s, d, -t * c], [-d * s, t, d * c]]
 }
 
-fn noise(mapping: MappingId, size: [u32; 2], layout: Layout, float: bool) -> EnvironmentMap {
+fn noise(mapping: MappingId, size: [u32; 2], layout: Layout, float: bool) -> Result<EnvironmentMap, ShapeError> {
     let mut bits = 1_u32;
     let mut next = || {
         bits = bits.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -131,7 +133,7 @@ fn noise(mapping: MappingId, size: [u32; 2], layout: Layout, float: bool) -> Env
             Raster::new(size, Channels::Rgb, transfer, samples)
         })
         .collect();
-    EnvironmentMap::from_layout(mapping, layout, rasters).expect("a layout of its own size")
+    EnvironmentMap::from_layout(mapping, layout, rasters)
 }
 
 fn measure(

@@ -3,6 +3,7 @@
 //! Standard output carries data only; messages go to standard error, one line each. Exit status: 0 done, 1 the work
 //! failed, 2 wrong usage. What needs the window or the GPU is not done here but handed back as a [`Request`].
 
+mod convert;
 mod csv;
 mod eval;
 mod figure;
@@ -61,6 +62,8 @@ enum Command {
     Maps(maps::MapsOptions),
     /// Directions from standard input to chart coordinates, or back
     Eval(plan::EvalOptions),
+    /// One environment map into another mapping, layout, size, format
+    Convert(Box<convert::ConvertOptions>),
     /// Draw one picture without opening a window
     Render(Box<RenderOptions>),
     /// Draw the figures of the source articles anew
@@ -72,6 +75,8 @@ enum Command {
 enum CliError {
     #[error(transparent)]
     Usage(#[from] plan::PlanError),
+    #[error(transparent)]
+    Convert(#[from] convert::ConvertError),
     #[error("standard input cannot be read: {0}")]
     Read(io::Error),
     #[error("standard output cannot be written: {0}")]
@@ -110,6 +115,11 @@ fn obey(cli: Cli) -> Request {
         Some(Command::Eval(options)) => {
             finish(|out| eval::run(&options, io::stdin().lock(), out, io::stderr().lock()))
         }
+        Some(Command::Convert(options)) => Request::Done(status_of(
+            convert::run(&options)
+                .map(|()| DONE)
+                .map_err(CliError::from),
+        )),
         Some(Command::Render(options)) => Request::Render(options),
         Some(Command::Figure(options)) => Request::Figure(options),
         None => match cli.scene {
@@ -134,19 +144,25 @@ fn finish(command: impl FnOnce(&mut BufWriter<io::StdoutLock>) -> Result<u8, Cli
     });
     // What could not be written must not be tried again when the buffer is dropped.
     let _ = out.into_parts();
-    Request::Done(match result {
-        Ok(status) => status,
-        // The reader has what it wanted (`| head`).
-        Err(CliError::Write(error)) if error.kind() == io::ErrorKind::BrokenPipe => DONE,
-        Err(error) => {
-            complain(&error);
-            if matches!(error, CliError::Usage(_)) {
-                USAGE
-            } else {
-                FAILED
-            }
-        }
-    })
+    Request::Done(status_of(result))
+}
+
+/// The exit status of a command that has run; says in one line what went wrong.
+fn status_of(result: Result<u8, CliError>) -> u8 {
+    let error =
+        match result {
+            Ok(status) => return status,
+            // The reader has what it wanted (`| head`).
+            Err(
+                CliError::Write(error) | CliError::Convert(convert::ConvertError::Write(error)),
+            ) if error.kind() == io::ErrorKind::BrokenPipe => return DONE,
+            Err(error) => error,
+        };
+    complain(&error);
+    match error {
+        CliError::Usage(_) | CliError::Convert(convert::ConvertError::Usage(_)) => USAGE,
+        _ => FAILED,
+    }
 }
 
 /// Prints what clap has to say: help and version to standard output, the rest to standard error.

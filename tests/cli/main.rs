@@ -7,6 +7,7 @@
     reason = "tests say what they expect by unwrapping, and what they saw by printing"
 )]
 
+mod convert;
 mod eval;
 mod maps;
 #[cfg(feature = "explorer")]

@@ -22,14 +22,15 @@
 mod area;
 mod conversion;
 mod encode;
+mod equal;
 mod filter;
 mod fused;
 mod general;
 mod geometry;
 mod grid;
 mod lane_places;
+mod levels;
 mod lookups;
-mod mips;
 mod plan;
 mod report;
 mod simd;
@@ -38,7 +39,8 @@ mod strips;
 mod texels;
 
 pub use conversion::{Conversion, Filter, FilteredIn, Isa};
-pub use mips::mip_chain;
+pub use equal::{chart_size, equal_height, rotation_of_viewer};
+pub use levels::levels;
 pub use plan::{MOST_SIDE, Plan};
 pub use report::{Report, Skipped};
 
@@ -58,6 +60,9 @@ pub enum ResampleError {
         /// The layout's name.
         layout: &'static str,
     },
+    /// The program has no such maps.
+    #[error(transparent)]
+    Frame(#[from] crate::mapping::FrameError),
     /// Too many texels.
     #[error(
         "{width} x {height} texels a chart are too many, the limit is {most} a side; choose a smaller size"

@@ -1,0 +1,8 @@
+//! Which way round maps are: frames of programs, seams, the face solver, and telling what a picture is.
+
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod detecting;
+mod scenes;
+mod seams;
+mod solving;
