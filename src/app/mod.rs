@@ -34,6 +34,7 @@ pub mod state;
 mod story;
 mod texel_color;
 pub mod theme;
+mod turning;
 mod viewport;
 pub mod views;
 mod window;

@@ -1,10 +1,11 @@
-//! Numbers: the number trait, stable angles, units in the last place, dual numbers, input points.
+//! Numbers: the number trait, stable angles, turns, units in the last place, dual numbers, input points.
 
 mod arctan;
 mod double_word;
 mod dual;
 pub mod inputs;
 mod real;
+mod rotation;
 pub mod ulp;
 mod vec3;
 
@@ -14,4 +15,5 @@ pub use arctan::{
 pub use double_word::DoubleWord;
 pub use dual::Dual;
 pub use real::{Real, Textbook};
+pub use rotation::{BadRotation, Rotation, Rows, turned};
 pub use vec3::{Vec3, angle_rad, unit_in_plane};
