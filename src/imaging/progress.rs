@@ -15,6 +15,10 @@ pub enum Stage {
     Decoding,
     /// Texels come from a formula.
     Computing,
+    /// Texels of one map become those of another.
+    Converting,
+    /// Texels become bytes of a file.
+    Writing,
     /// What cannot be shown is counted and replaced.
     Checking,
     /// The result is ready.
@@ -22,11 +26,13 @@ pub enum Stage {
 }
 
 impl Stage {
-    const ALL: [Self; 6] = [
+    const ALL: [Self; 8] = [
         Self::Waiting,
         Self::Reading,
         Self::Decoding,
         Self::Computing,
+        Self::Converting,
+        Self::Writing,
         Self::Checking,
         Self::Done,
     ];
@@ -38,6 +44,8 @@ impl Stage {
             Self::Reading => "reading",
             Self::Decoding => "decoding",
             Self::Computing => "computing",
+            Self::Converting => "converting",
+            Self::Writing => "writing",
             Self::Checking => "checking",
             Self::Done => "done",
         }

@@ -43,6 +43,34 @@ impl SampleKind {
     }
 }
 
+/// How a file stores a sample. [`Raster`] holds each exactly: halves and shared exponents as [`SampleKind::F32`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stored {
+    /// 8 bits, whole.
+    U8,
+    /// 16 bits, whole.
+    U16,
+    /// 16 bits, floating.
+    Half,
+    /// 32 bits, floating.
+    F32,
+    /// Radiance's three mantissas of 8 bits with a common exponent.
+    Rgbe,
+    /// Three mantissas of 9 bits with a common exponent of 5.
+    Rgb9e5,
+}
+
+impl Stored {
+    /// The number type of a raster that holds it exactly.
+    pub const fn kind(self) -> SampleKind {
+        match self {
+            Self::U8 => SampleKind::U8,
+            Self::U16 => SampleKind::U16,
+            Self::Half | Self::F32 | Self::Rgbe | Self::Rgb9e5 => SampleKind::F32,
+        }
+    }
+}
+
 /// How stored numbers become light. Opacity is always linear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Transfer {

@@ -2,7 +2,7 @@
 //!
 //! One NaN texel spreads through every level of a mip pyramid, so nothing is built from raw data.
 
-use super::Image;
+use super::{Image, Raster, Samples};
 
 /// The largest half float: the maps on the GPU are rgba16float.
 pub const LARGEST: f32 = 65504.0;
@@ -97,6 +97,26 @@ pub fn sanitize(image: &mut Image) -> (BadTexels, Originals) {
         }
     }
     (bad, originals)
+}
+
+/// Counts and replaces what no filter may meet: NaN by 0, +infinity by [`LARGEST`], -infinity by 0. Every finite value stays
+/// as it is, however large or negative, and codes are always finite.
+pub fn sanitize_raster(raster: &mut Raster) -> BadTexels {
+    let mut bad = BadTexels::default();
+    let count = raster.channels().count();
+    if let Samples::F32(samples) = raster.samples_mut() {
+        for texel in samples.chunks_exact_mut(count) {
+            if texel.iter().all(|c| c.is_finite()) {
+                continue;
+            }
+            bad.nan += u64::from(texel.iter().any(|c| c.is_nan()));
+            bad.infinite += u64::from(texel.iter().any(|c| c.is_infinite()));
+            for c in texel.iter_mut().filter(|c| !c.is_finite()) {
+                *c = replaced(*c);
+            }
+        }
+    }
+    bad
 }
 
 fn replaced(c: f32) -> f32 {

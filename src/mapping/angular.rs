@@ -30,17 +30,15 @@ impl Mapping for Angular {
         Some(ChartPoint::new(0, R::half() + rho * x, R::half() - rho * y).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(1) || !Domain::Disc.contains(point.u, point.v) {
-            return None;
-        }
+    /// Beyond the rim: past -z and up the other side.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
         let (x, y) = (point.u - R::half(), R::half() - point.v);
         let rho = x.hypot(y);
         if rho <= R::zero() {
-            return Some(Vec3::new(R::zero(), R::zero(), R::one()));
+            return Vec3::new(R::zero(), R::zero(), R::one());
         }
         let (sin, cos) = rho.sin_cos_turns();
-        Some(Vec3::new(sin * (x / rho), sin * (y / rho), cos))
+        Vec3::new(sin * (x / rho), sin * (y / rho), cos)
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

@@ -40,6 +40,19 @@ impl Axes {
         is_permutation.then_some(Self { from, negative })
     }
 
+    /// The permutation whose components are the old ones of these numbers, 1 to 3 for x to z, with their signs. Each must
+    /// come once.
+    pub(super) const fn from_signed(axes: [i8; 3]) -> Self {
+        let mut result = Self::IDENTITY;
+        let mut i = 0;
+        while i < 3 {
+            result.from[i] = axes[i].unsigned_abs() - 1;
+            result.negative[i] = axes[i] < 0;
+            i += 1;
+        }
+        result
+    }
+
     /// All 48.
     pub fn all() -> impl Iterator<Item = Self> {
         const ORDERS: [[u8; 3]; 6] = [
@@ -69,14 +82,27 @@ impl Axes {
     }
 
     /// The permutation that undoes this one.
-    pub fn inverse(self) -> Self {
+    pub const fn inverse(self) -> Self {
         let mut inverse = Self::IDENTITY;
-        for i in 0..3 {
-            let from = usize::from(self.from[i]);
+        let mut i = 0;
+        while i < 3 {
+            let from = self.from[i] as usize;
             inverse.from[from] = i as u8;
             inverse.negative[from] = self.negative[i];
+            i += 1;
         }
         inverse
+    }
+
+    /// First `self`, then `next`.
+    pub fn then(self, next: Self) -> Self {
+        let mut result = Self::IDENTITY;
+        for i in 0..3 {
+            let through = usize::from(next.from[i]);
+            result.from[i] = self.from[through];
+            result.negative[i] = self.negative[through] != next.negative[i];
+        }
+        result
     }
 
     /// Rows of the matrix.
@@ -113,6 +139,9 @@ mod tests {
         let v = Vec3::new(1.0, 2.0, 3.0);
         for (i, axes) in all.iter().enumerate() {
             assert_eq!(axes.inverse().apply(axes.apply(v)), v);
+            for next in &all {
+                assert_eq!(axes.then(*next).apply(v), next.apply(axes.apply(v)));
+            }
             assert!(all[..i].iter().all(|other| other.apply(v) != axes.apply(v)));
         }
         let z_negated = Axes::parse(["+x", "+y", "-z"]).unwrap();

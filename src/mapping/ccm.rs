@@ -75,17 +75,15 @@ impl Mapping for Ccm {
         Some(ChartPoint::new(face, u, v).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(6) {
-            return None;
-        }
+    /// Beyond the face: meridians and latitudes go on.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
         let (sc, tc, ma) = if is_x_face(point.chart) {
             let (long, height, axis) = from_edge(point.v, point.u);
             (height, long, axis)
         } else {
             from_edge(point.u, point.v)
         };
-        Some(from_frame(point.chart, sc, tc, ma))
+        from_frame(point.chart, sc, tc, ma)
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

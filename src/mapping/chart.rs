@@ -68,7 +68,18 @@ pub trait Mapping {
 
     /// The unit direction of a chart point. `None` off the chart: an index too large, a coordinate outside [0, 1] or not a
     /// number, or a point outside the disc of a disc mapping.
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>>;
+    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
+        let info = &Self::INFO;
+        (point.is_on(info.chart_count()) && info.domain.contains(point.u, point.v))
+            .then(|| Self::continued(point))
+    }
+
+    /// [`inverse`](Self::inverse), continued beyond the border: the unit direction that a texel of the gutter stands for.
+    ///
+    /// Without a jump at the border; over a seam into the neighbour, and where a rim has no other side the rim's own
+    /// direction. Takes finite coordinates at most half a chart beyond; each mapping says how it goes on, and its shader does
+    /// the same.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R>;
 
     /// The formula step by step with the numbers of `dir` put in; empty for a vector that is no direction.
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step>;

@@ -1,7 +1,7 @@
 //! Cube map: six pictures taken with a square field of view of 90 degrees, the gnomonic plane as it is.
 
-use super::chart::to_unit;
-use super::cube_face::{self, from_gnomonic, gnomonic, largest_component, signed};
+use super::chart::{to_signed, to_unit};
+use super::cube_face::{self, from_gnomonic, gnomonic, largest_component};
 use super::{ChartPoint, Convention, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
@@ -29,9 +29,9 @@ impl Mapping for Cube {
         Some(ChartPoint::new(face, to_unit(a), to_unit(b)).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        let (a, b) = signed(point)?;
-        Some(from_gnomonic(point.chart, a, b))
+    /// Beyond the face: on along its own plane.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
+        from_gnomonic(point.chart, to_signed(point.u), to_signed(point.v))
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

@@ -6,8 +6,7 @@
 //! Faces are chosen by comparing the raw components: comparisons are exact in every language and on every adapter, while
 //! rounded dot products leave holes.
 
-use super::chart::to_signed;
-use super::{ChartPoint, Layout, MappingInfo, Step};
+use super::{Layout, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
 /// Names of the six charts.
@@ -140,13 +139,6 @@ pub fn gnomonic<R: Real>(dir: Vec3<R>, choose: fn(Vec3<R>) -> u32) -> Option<(u3
 /// The unit direction of a point of a face's gnomonic plane.
 pub fn from_gnomonic<R: Real>(face: u32, a: R, b: R) -> Vec3<R> {
     from_frame(face, a, b, R::one()).normalized()
-}
-
-/// A chart point as (a, b) in [-1, 1]^2 on its face without any warp, or `None` off the six faces.
-pub fn signed<R: Real>(point: ChartPoint<R>) -> Option<(R, R)> {
-    point
-        .is_on(6)
-        .then(|| (to_signed(point.u), to_signed(point.v)))
 }
 
 /// The steps where the face of the largest component counts: the face, its frame, the gnomonic plane, and what `place`

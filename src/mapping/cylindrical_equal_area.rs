@@ -42,18 +42,15 @@ impl Mapping for CylindricalEqualArea {
         Some(ChartPoint::new(0, latlong::column(d), v).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(1) {
-            return None;
-        }
+    /// Beyond the chart: over the date line; beyond a pole down the other side, as v runs back.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
         let (sin, cos) = latlong::longitude(point.u);
+        let v = (point.v - R::two() * (point.v - R::one()).max(R::zero())).abs();
+        let is_over_pole = point.v < R::zero() || point.v > R::one();
         // 1 - y^2 = 4 v (1 - v), which cancels at neither pole.
-        let across = R::two() * (point.v * (R::one() - point.v)).sqrt();
-        Some(Vec3::new(
-            across * sin,
-            R::one() - R::two() * point.v,
-            across * cos,
-        ))
+        let across = R::two() * (v * (R::one() - v)).sqrt();
+        let across = if is_over_pole { -across } else { across };
+        Vec3::new(across * sin, R::one() - R::two() * v, across * cos)
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

@@ -23,17 +23,11 @@ impl Mapping for Eac {
         Some(ChartPoint::new(face, place(a), place(b)).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(6) {
-            return None;
-        }
+    /// Beyond the face: on along its own plane.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
         // (u - 1/2) pi/2 radians are a quarter of u - 1/2 in turns.
         let tangent = |c: R| ((c - R::half()) * R::from_f64(0.25)).tan_turns();
-        Some(from_gnomonic(
-            point.chart,
-            tangent(point.u),
-            tangent(point.v),
-        ))
+        from_gnomonic(point.chart, tangent(point.u), tangent(point.v))
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

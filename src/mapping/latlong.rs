@@ -52,11 +52,9 @@ impl Mapping for Latlong {
         Some(ChartPoint::new(0, column(d), v).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(1) {
-            return None;
-        }
-        Some(direction(longitude(point.u), colatitude(point.v)))
+    /// Beyond the chart: over the date line, and over a pole to the other side.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
+        direction(longitude(point.u), colatitude(point.v))
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

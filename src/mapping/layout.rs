@@ -30,7 +30,7 @@ pub enum Layout {
     #[serde(rename = "3x2")]
     ThreeByTwo,
     /// Three columns, two rows as 360-degree video has them: -x +z +x above -y -z +y, the lower three turned so that each row
-    /// is without a break.
+    /// is without a break: -y and +y by three quarters clockwise, -z by one (FFmpeg 5.1's `eac`, found by running it).
     #[serde(rename = "3x2-turned")]
     ThreeByTwoTurned,
     /// A picture for each chart.
@@ -198,10 +198,10 @@ impl Layout {
                     &[
                         upright(2, 0),
                         upright(0, 0),
-                        turned(2, 1, 1),
-                        turned(0, 1, 1),
+                        turned(2, 1, 3),
+                        turned(0, 1, 3),
                         upright(1, 0),
-                        turned(1, 1, 3),
+                        turned(1, 1, 1),
                     ]
                 }
             }
@@ -251,7 +251,9 @@ impl Layout {
 
 #[cfg(test)]
 mod tests {
+    use super::super::cube_face;
     use super::*;
+    use crate::math::Vec3;
 
     #[test]
     fn a_place_goes_to_its_chart_and_back() {
@@ -275,6 +277,38 @@ mod tests {
             None,
             "a cross has empty corners"
         );
+    }
+
+    /// Largest distance between the gnomonic directions on both sides of the vertical borders in a row of the grid.
+    fn worst_break(cells: &[Cell], row: u32) -> f64 {
+        let dir_at = |column: u32, place: [f64; 2]| -> Vec3<f64> {
+            let chart = cells
+                .iter()
+                .position(|cell| cell.at == [column, row])
+                .unwrap();
+            let [u, v] = cells[chart].turn.inverse().cell_place(place);
+            cube_face::from_gnomonic(chart as u32, 2.0 * u - 1.0, 2.0 * v - 1.0)
+        };
+        let mut worst = 0.0_f64;
+        for column in 0..2 {
+            for y in [0.0, 0.2, 0.5, 0.9] {
+                let gap = dir_at(column, [1.0, y]) - dir_at(column + 1, [0.0, y]);
+                worst = worst.max(gap.length());
+            }
+        }
+        worst
+    }
+
+    #[test]
+    fn rows_of_the_turned_layout_have_no_break() {
+        let cells = Layout::ThreeByTwoTurned.cells();
+        for row in 0..2 {
+            assert!(worst_break(cells, row) < 1e-15);
+        }
+        // The same turned the other way round breaks.
+        let mut other = cells.to_vec();
+        other[5].turn = Turn::new(3, false);
+        assert!(worst_break(&other, 1) > 0.5);
     }
 
     #[test]

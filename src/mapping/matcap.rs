@@ -44,14 +44,12 @@ impl Mapping for Matcap {
         Some(ChartPoint::new(0, u, v).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(1) || !Domain::Disc.contains(point.u, point.v) {
-            return None;
-        }
+    /// Beyond the rim: the rim's own direction.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
         let x = R::two() * point.u - R::one();
         let y = R::one() - R::two() * point.v;
         let z = -height_squared(point.u, point.v).max(R::zero()).sqrt();
-        Some(Vec3::new(x, y, z).normalized())
+        Vec3::new(x, y, z).normalized()
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

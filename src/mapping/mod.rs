@@ -11,19 +11,23 @@
 
 #[macro_use]
 mod registry;
+mod arrangement;
 mod axes;
 mod chart;
 mod convention;
 pub mod cube_face;
 mod evaluator;
+mod frame;
 mod jacobian;
 mod layout;
 mod turn;
 
+pub use arrangement::{Arrangement, ArrangementError, Held};
 pub use axes::Axes;
 pub use chart::{ChartPoint, Claims, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot};
 pub use convention::{Convention, Erratum, ForwardFn, InverseFn};
 pub use evaluator::{Cpu, Evaluator, EvaluatorError, EvaluatorInfo, SHARED_EVALUATORS};
+pub use frame::{CubeFrame, Founded, Frame, FrameError, Pictures, UnknownFrame};
 pub use jacobian::Jacobian;
 pub use layout::{Cell, Layout};
 pub use turn::Turn;

@@ -27,14 +27,12 @@ impl Mapping for Octahedral {
         Some(ChartPoint::new(0, to_unit(x), to_unit(z)).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(1) {
-            return None;
-        }
-        let (x, z) = (to_signed(point.u), to_signed(point.v));
+    /// Beyond an edge: back in at the mirrored place.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
+        let (x, z) = wrap(to_signed(point.u), to_signed(point.v));
         let y = R::one() - x.abs() - z.abs();
         let (x, z) = if y < R::zero() { fold(x, z) } else { (x, z) };
-        Some(Vec3::new(x, y, z).normalized())
+        Vec3::new(x, y, z).normalized()
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
@@ -83,4 +81,19 @@ pub(super) fn fold<R: Real>(x: R, z: R) -> (R, R) {
         (R::one() - z.abs()) * x.sign_or_one(),
         (R::one() - x.abs()) * z.sign_or_one(),
     )
+}
+
+/// A point beyond the square's edge, brought back: each edge is folded onto itself around its middle.
+pub(super) fn wrap<R: Real>(x: R, z: R) -> (R, R) {
+    let back = |c: R| c.sign_or_one() * R::two() - c;
+    let (x, z) = if x.abs() > R::one() {
+        (back(x), -z)
+    } else {
+        (x, z)
+    };
+    if z.abs() > R::one() {
+        (-x, back(z))
+    } else {
+        (x, z)
+    }
 }

@@ -3,7 +3,7 @@
 //! Each octant's triangle is mapped with equal area: 4 pi sr per unit of chart area everywhere.
 
 use super::chart::{to_signed, to_unit};
-use super::octahedral::fold;
+use super::octahedral::{fold, wrap};
 use super::{ChartPoint, Claims, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 use std::f64::consts::FRAC_1_PI;
@@ -38,11 +38,9 @@ impl Mapping for OctahedralEqualArea {
         Some(ChartPoint::new(0, to_unit(x), to_unit(z)).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(1) {
-            return None;
-        }
-        let (mut x, mut z) = (to_signed(point.u), to_signed(point.v));
+    /// Beyond an edge: back in at the mirrored place.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
+        let (mut x, mut z) = wrap(to_signed(point.u), to_signed(point.v));
         let height = R::one() - x.abs() - z.abs();
         let below = height < R::zero();
         if below {
@@ -59,11 +57,11 @@ impl Mapping for OctahedralEqualArea {
         // sin(colatitude) = r sqrt(2 - r^2), cos(colatitude) = 1 - r^2.
         let across = radius * (R::two() - radius * radius).max(R::zero()).sqrt();
         let up = (R::one() - radius) * (R::one() + radius);
-        Some(Vec3::new(
+        Vec3::new(
             copy_sign(across * cos, x),
             if below { -up } else { up },
             copy_sign(across * sin, z),
-        ))
+        )
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

@@ -33,10 +33,8 @@ impl Mapping for Paraboloid {
         Some(ChartPoint::new(u32::from(back), u, v).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(2) || !Domain::Disc.contains(point.u, point.v) {
-            return None;
-        }
+    /// Beyond the rim: on into the other half.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
         let p = R::two() * point.u - R::one();
         let q = R::one() - R::two() * point.v;
         // The paraboloid's normal is (p, q, 1) and the direction the axis reflected there.
@@ -47,11 +45,11 @@ impl Mapping for Paraboloid {
             R::two() * q * scale,
             (R::one() - square) * scale,
         );
-        Some(if point.chart == 0 {
+        if point.chart == 0 {
             Vec3::new(x, y, z)
         } else {
             Vec3::new(-x, y, -z)
-        })
+        }
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

@@ -45,6 +45,11 @@ macro_rules! registry {
                 match self { $(Self::$mapping => $module::$mapping::inverse(point),)+ }
             }
 
+            /// See [`Mapping::continued`].
+            pub fn continued<R: Real>(self, point: ChartPoint<R>) -> Vec3<R> {
+                match self { $(Self::$mapping => $module::$mapping::continued(point),)+ }
+            }
+
             /// See [`Mapping::steps`].
             pub fn steps<R: Real + std::fmt::Display>(self, dir: Vec3<R>) -> Vec<Step> {
                 match self { $(Self::$mapping => $module::$mapping::steps(dir),)+ }

@@ -48,16 +48,14 @@ impl Mapping for Sphere {
         Some(ChartPoint::new(0, R::half() + x, R::half() - y).clamped())
     }
 
-    fn inverse<R: Real>(point: ChartPoint<R>) -> Option<Vec3<R>> {
-        if !point.is_on(1) || !Domain::Disc.contains(point.u, point.v) {
-            return None;
-        }
+    /// Beyond the rim: the rim's own direction.
+    fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
         // (p, q, -w) is the ball's normal; the direction is the view reflected there.
         let p = R::two() * point.u - R::one();
         let q = R::one() - R::two() * point.v;
         let w = height_squared(point.u, point.v).max(R::zero()).sqrt();
         let twice = R::two() * w;
-        Some(Vec3::new(twice * p, twice * q, R::one() - twice * w))
+        Vec3::new(twice * p, twice * q, R::one() - twice * w)
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

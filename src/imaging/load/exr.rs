@@ -1,4 +1,5 @@
-//! OpenEXR pictures: scan lines or tiles, every compression, 16- and 32-bit samples; RGB or luminance alone.
+//! OpenEXR pictures: scan lines or tiles, every compression, 16- and 32-bit samples; RGB or luminance alone, with or without
+//! opacity.
 //!
 //! The crate that reads the blocks allocates whatever a header declares and has asserts that bad headers reach, so the
 //! header is judged between reading and decoding, the blocks are unpacked here one by one, and both run where a panic is
@@ -11,17 +12,19 @@ use exr::block::chunk::{Chunk, CompressedBlock};
 use exr::block::reader::ChunksReader;
 use exr::compression::Compression;
 use exr::math::Vec2;
-use exr::meta::attribute::{ChannelList, SampleType};
+use exr::meta::attribute::{ChannelList, EnvironmentMap, SampleType};
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData};
 
-use super::{Format, Job, LoadProblem, MOST_HEIGHT, MOST_WIDTH, zeroed};
+use super::decoded::{Decoded, Texels};
+use super::{EnvmapKind, Format, Job, LoadProblem, MOST_RASTER_BYTES, MOST_SIDE};
+use crate::imaging::Stored;
 
-/// All channels of all layers together, unpacked: eight channels of 32 bits at the largest size.
-const MOST_UNPACKED_BYTES: u64 = MOST_WIDTH as u64 * MOST_HEIGHT as u64 * 32;
+/// All channels of all layers together, unpacked: twice what may be shown of them.
+const MOST_UNPACKED_BYTES: u64 = 2 * MOST_RASTER_BYTES;
 
-/// One block unpacked: 256 lines (the highest block there is) of the largest width with eight channels of 32 bits.
-const MOST_BLOCK_BYTES: u64 = 256 * MOST_WIDTH as u64 * 32;
+/// One block unpacked: 256 lines (the highest block there is) of the largest width with four channels of 32 bits.
+const MOST_BLOCK_BYTES: u64 = 256 * MOST_SIDE as u64 * 16;
 
 /// Offset tables: a chunk for every 64 x 64 texels would be 2^15; a hostile header declares one for each texel.
 const MOST_CHUNKS: u64 = 1 << 20;
@@ -34,14 +37,41 @@ pub(super) fn declared_size(bytes: &[u8]) -> Result<(u64, u64), LoadProblem> {
     Ok((width as u64, height as u64))
 }
 
-pub(super) fn decode(job: &Job) -> Result<Vec<[f32; 3]>, LoadProblem> {
+pub(super) fn decode(job: &Job) -> Result<Decoded, LoadProblem> {
     let meta = read_meta(job.bytes)?;
     judge(&meta)?;
-    let (layer, channels) = shown_layer(&meta)?;
+    let (layer, [r, g, b]) = shown_layer(&meta)?;
+    let header = &meta.headers[layer];
+    let alpha = job
+        .keeps_bits
+        .then(|| find(&header.channels, "A"))
+        .flatten();
+    let texels = match alpha {
+        Some(a) => Texels::Rgba(decode_channels(job, layer, [r, g, b, a])?),
+        None => Texels::Rgb(decode_channels(job, layer, [r, g, b])?),
+    };
+    let is_half = |index: usize| header.channels.list[index].sample_type == SampleType::F16;
+    let all_half = [r, g, b].into_iter().chain(alpha).all(is_half);
+    Ok(Decoded {
+        texels,
+        stored: if all_half { Stored::Half } else { Stored::F32 },
+        envmap: header.own_attributes.environment_map.map(|map| match map {
+            EnvironmentMap::LatitudeLongitude => EnvmapKind::Latlong,
+            EnvironmentMap::Cube => EnvmapKind::Cube,
+        }),
+    })
+}
+
+/// The texels of a layer, of which the given channels are wanted.
+fn decode_channels<const N: usize>(
+    job: &Job,
+    layer: usize,
+    channels: [usize; N],
+) -> Result<Vec<[f32; N]>, LoadProblem> {
     let mut picture = Picture {
         width: job.width as usize,
         channels,
-        pixels: Vec::new(),
+        pixels: job.zeroed([0.0; N], job.texels())?,
         filled: 0,
     };
     let mut chunks = caught(|| {
@@ -50,7 +80,6 @@ pub(super) fn decode(job: &Job) -> Result<Vec<[f32; 3]>, LoadProblem> {
     })?;
     let meta = chunks.meta_data().clone();
     let total = chunks.expected_chunk_count();
-    picture.pixels = zeroed([0.0; 3], job.texels())?;
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     let mut done = 0;
     loop {
@@ -155,23 +184,7 @@ fn bytes_per_texel(channels: &ChannelList) -> u64 {
 /// The first layer that has R, G and B (or Y alone), and the positions of these three among its channels.
 fn shown_layer(meta: &MetaData) -> Result<(usize, [usize; 3]), LoadProblem> {
     for (index, header) in meta.headers.iter().enumerate() {
-        let find = |name: &str| {
-            let names = || {
-                header
-                    .channels
-                    .list
-                    .iter()
-                    .map(|channel| channel.name.as_slice())
-            };
-            // Channels of the layer itself before those of a layer within (`view.R`).
-            names()
-                .position(|full| full == name.as_bytes())
-                .or_else(|| {
-                    names().position(|full| {
-                        full.rsplit(|&c| c == b'.').next() == Some(name.as_bytes())
-                    })
-                })
-        };
+        let find = |name: &str| find(&header.channels, name);
         let rgb = match (find("R"), find("G"), find("B")) {
             (Some(r), Some(g), Some(b)) => Some([r, g, b]),
             _ => find("Y").filter(|_| find("RY").is_none()).map(|y| [y; 3]),
@@ -183,6 +196,15 @@ fn shown_layer(meta: &MetaData) -> Result<(usize, [usize; 3]), LoadProblem> {
     Err(unsupported(
         "it has neither channels R, G, B nor Y alone; save it as RGB",
     ))
+}
+
+/// The channel of that name: of the layer itself before one of a layer within (`view.R`).
+fn find(channels: &ChannelList, name: &str) -> Option<usize> {
+    let name = name.as_bytes();
+    let names = || channels.list.iter().map(|channel| channel.name.as_slice());
+    names()
+        .position(|full| full == name)
+        .or_else(|| names().position(|full| full.rsplit(|&c| c == b'.').next() == Some(name)))
 }
 
 /// Smaller levels of a picture with levels are not needed.
@@ -258,14 +280,14 @@ fn judge_dwa(chunk: &Chunk, header: &Header) -> Result<(), LoadProblem> {
     Ok(())
 }
 
-struct Picture {
+struct Picture<const N: usize> {
     width: usize,
-    channels: [usize; 3],
-    pixels: Vec<[f32; 3]>,
+    channels: [usize; N],
+    pixels: Vec<[f32; N]>,
     filled: usize,
 }
 
-impl Picture {
+impl<const N: usize> Picture<N> {
     /// Copies a block's lines; each line holds its channels one after another, in alphabetical order.
     fn insert(&mut self, block: &UncompressedBlock, header: &Header) -> Result<(), LoadProblem> {
         let Vec2(x, y) = block.index.pixel_position;

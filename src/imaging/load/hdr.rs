@@ -3,7 +3,10 @@
 //! Own code: it stops between rows, grows with what the file really holds, and knows the signatures of both spellings.
 //! `EXPOSURE` lines are ignored, as other viewers do: the values are shown as they are stored.
 
-use super::{Format, Job, LoadProblem, reserved};
+use super::decoded::{Decoded, Texels};
+use super::{Format, Job, LoadProblem};
+use crate::imaging::Stored;
+use crate::imaging::shared_exponent::RGBE;
 
 /// Header lines are short; a file whose header is longer than this is not a picture.
 const MOST_HEADER_BYTES: usize = 1 << 16;
@@ -82,12 +85,12 @@ impl<'a> Lines<'a> {
     }
 }
 
-pub(super) fn decode(job: &Job) -> Result<Vec<[f32; 3]>, LoadProblem> {
+pub(super) fn decode(job: &Job) -> Result<Decoded, LoadProblem> {
     let header = Header::parse(job.bytes)?;
     let mut data = job.bytes.get(header.data_start..).unwrap_or_default();
     let width = job.width as usize;
     let mut row = vec![[0_u8; 4]; width];
-    let mut pixels = reserved(job.texels())?;
+    let mut pixels = job.reserved(job.texels())?;
     for y in 0..job.height as usize {
         read_row(&mut data, &mut row)
             .ok_or_else(|| damaged(&format!("row {y} of {} is cut off or overlong", job.height)))?;
@@ -103,17 +106,19 @@ pub(super) fn decode(job: &Job) -> Result<Vec<[f32; 3]>, LoadProblem> {
             top[y * width..(y + 1) * width].swap_with_slice(&mut bottom[..width]);
         }
     }
-    Ok(pixels)
+    Ok(Decoded {
+        texels: Texels::Rgb(pixels),
+        stored: Stored::Rgbe,
+        envmap: None,
+    })
 }
 
-/// Mantissas in 1/256, exponent with an offset of 128.
 fn linear_from_rgbe([r, g, b, e]: [u8; 4]) -> [f32; 3] {
+    // The exponent 0 means black, whatever the mantissas are.
     if e == 0 {
         return [0.0; 3];
     }
-    // 2^(e - 136) in f64, where it is always a normal number.
-    let scale = f64::from_bits((u64::from(e) + 1023 - 136) << 52);
-    [r, g, b].map(|c| (f64::from(c) * scale) as f32)
+    RGBE.decode([r, g, b].map(u32::from), u32::from(e))
 }
 
 /// One row in any of the three codings; `None` when it is cut off or runs over its end.

@@ -1,6 +1,7 @@
 //! The size that a file declares, by walks over its header; only OpenEXR's needs the crate that decodes it.
 
 use super::{Format, LoadProblem};
+use crate::imaging::container;
 
 /// (width, height) as declared.
 pub(super) fn declared_size(format: Format, bytes: &[u8]) -> Result<(u64, u64), LoadProblem> {
@@ -13,6 +14,7 @@ pub(super) fn declared_size(format: Format, bytes: &[u8]) -> Result<(u64, u64), 
         Format::Jpeg => {
             jpeg(bytes).ok_or_else(|| LoadProblem::damaged(format, "it has no frame header"))
         }
+        Format::Ktx2 | Format::Dds => container::declared_size(format, bytes),
     }
 }
 

@@ -1,15 +1,16 @@
-//! JPEG pictures: decoded from sRGB; grey becomes RGB, CMYK is converted by the decoder.
+//! JPEG pictures: codes of sRGB; grey becomes RGB, CMYK is converted by the decoder.
 
 use std::io::Cursor;
 
 use image::codecs::jpeg::JpegDecoder;
 use image::{ColorType, ImageDecoder};
 
-use super::super::srgb::linear_from_srgb8;
-use super::{Format, Job, LoadProblem, reserved, zeroed};
+use super::decoded::{Decoded, Texels};
+use super::{Format, Job, LoadProblem};
+use crate::imaging::{Channels, Stored};
 
 /// The decoder cannot be stopped, so a cancelled job ends before or after it.
-pub(super) fn decode(job: &Job) -> Result<Vec<[f32; 3]>, LoadProblem> {
+pub(super) fn decode(job: &Job) -> Result<Decoded, LoadProblem> {
     let decoder = JpegDecoder::new(Cursor::new(job.bytes)).map_err(damaged)?;
     if decoder.dimensions() != (job.width, job.height) {
         return Err(damaged("its frame headers disagree about the size"));
@@ -25,17 +26,19 @@ pub(super) fn decode(job: &Job) -> Result<Vec<[f32; 3]>, LoadProblem> {
             });
         }
     };
-    let mut raw = zeroed(0, job.texels() * channels)?;
-    decoder.read_image(&mut raw).map_err(damaged)?;
-    let mut pixels = reserved(job.texels())?;
-    for (y, row) in raw.chunks_exact(job.width as usize * channels).enumerate() {
-        pixels.extend(row.chunks_exact(channels).map(|texel| match *texel {
-            [r, g, b] => linear_from_srgb8([r, g, b]),
-            _ => linear_from_srgb8([texel[0]; 3]),
-        }));
-        job.row_done(y + 1)?;
+    let mut codes = job.zeroed(0, job.texels() * channels)?;
+    decoder.read_image(&mut codes).map_err(damaged)?;
+    if channels == 1 {
+        let mut colors = job.reserved(job.texels() * 3)?;
+        colors.extend(codes.iter().flat_map(|&grey| [grey; 3]));
+        codes = colors;
     }
-    Ok(pixels)
+    job.row_done(job.height as usize)?;
+    Ok(Decoded {
+        texels: Texels::U8(Channels::Rgb, codes),
+        stored: Stored::U8,
+        envmap: None,
+    })
 }
 
 fn damaged(reason: impl ToString) -> LoadProblem {

@@ -1,33 +1,46 @@
-//! A latlong environment from a file: Radiance HDR, OpenEXR, PNG, JPEG.
+//! Pictures from files: Radiance HDR, OpenEXR, PNG, JPEG, and the containers KTX2 and DDS.
+//!
+//! - [`read_raster`]: one picture of any shape, every stored bit kept;
+//! - [`open`]: a picture or a container, whichever the file is;
+//! - [`load`]: a latlong, decoded to light and fit to show, from the same decoders.
 //!
 //! The declared size is read from the header and judged before a decoder sees the file: failed allocations end the
 //! process and cannot be caught. Reading a header holds no more than the header's own bytes.
 
+mod decoded;
 mod exr;
 mod hdr;
 mod header;
 mod jpeg;
 mod png;
+mod problem;
 
-use std::io;
 use std::path::Path;
 
-use thiserror::Error;
-
+use self::decoded::Decoded;
+use super::container::{self, Container};
 use super::sanitize::{BadTexels, Originals, sanitize};
-use super::{Image, Progress, ReadProblem, Stage, read_whole};
+use super::{Image, Progress, Raster, Stage, Stored, read_whole};
 
-/// Most texels in a row: twice the largest height.
+pub use problem::{LoadError, LoadProblem};
+
+/// Most texels in a row of a latlong that is shown: twice the largest height.
 pub const MOST_WIDTH: u32 = 16384;
 
-/// Most rows. 16384 x 8192 texels take 1.5 GiB as f32 RGB.
+/// Most rows of one. 16384 x 8192 texels take 1.5 GiB as f32 RGB.
 pub const MOST_HEIGHT: u32 = 8192;
 
 /// Most texels a side of a ball's picture: more than any viewport shows of it, and within every device's limits.
 pub const MOST_BALL: u32 = 4096;
 
-/// Longest file: the largest allowed picture as uncompressed 32-bit RGBA.
-pub const MOST_FILE_BYTES: u64 = MOST_WIDTH as u64 * MOST_HEIGHT as u64 * 16;
+/// Most texels a side of any picture: six faces of [`MOST_HEIGHT`] in a row or a column.
+pub const MOST_SIDE: u32 = 6 * MOST_HEIGHT;
+
+/// Most bytes that the texels of a file take: the largest latlong as f32 RGBA, 2 GiB.
+pub const MOST_RASTER_BYTES: u64 = MOST_WIDTH as u64 * MOST_HEIGHT as u64 * 16;
+
+/// Longest file: as much, uncompressed.
+pub const MOST_FILE_BYTES: u64 = MOST_RASTER_BYTES;
 
 /// File formats that open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +53,10 @@ pub enum Format {
     Png,
     /// JPEG, 8 bits.
     Jpeg,
+    /// KTX 2.0: cube maps and pictures with levels.
+    Ktx2,
+    /// DirectDraw surfaces: the same.
+    Dds,
 }
 
 impl Format {
@@ -50,7 +67,14 @@ impl Format {
             Self::Exr => "OpenEXR",
             Self::Png => "PNG",
             Self::Jpeg => "JPEG",
+            Self::Ktx2 => "KTX2",
+            Self::Dds => "DDS",
         }
+    }
+
+    /// Whether a file holds faces and levels instead of one picture.
+    pub const fn is_container(self) -> bool {
+        matches!(self, Self::Ktx2 | Self::Dds)
     }
 
     /// The format whose signature `bytes` start with. File names are not asked.
@@ -60,9 +84,43 @@ impl Format {
             [0x76, 0x2f, 0x31, 0x01, ..] => Some(Self::Exr),
             [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => Some(Self::Png),
             [0xff, 0xd8, 0xff, ..] => Some(Self::Jpeg),
+            _ if bytes.starts_with(&container::ktx2::SIGNATURE) => Some(Self::Ktx2),
+            _ if bytes.starts_with(&container::dds::SIGNATURE) => Some(Self::Dds),
             _ => None,
         }
     }
+}
+
+/// What OpenEXR's attribute `envmap` says a picture is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnvmapKind {
+    /// A latlong.
+    Latlong,
+    /// Six faces in a column.
+    Cube,
+}
+
+/// A picture as its file holds it.
+#[derive(Clone, Debug)]
+pub struct RasterFile {
+    /// The texels, every stored bit kept: NaN and infinite values too. OpenEXR's colours are multiplied by their opacity,
+    /// where there is one; they stay so.
+    pub raster: Raster,
+    /// What the file was.
+    pub format: Format,
+    /// How it stored a sample.
+    pub stored: Stored,
+    /// What OpenEXR's attribute `envmap` says.
+    pub envmap: Option<EnvmapKind>,
+}
+
+/// What a file may be.
+#[derive(Clone, Debug)]
+pub enum Opened {
+    /// One picture.
+    Raster(RasterFile),
+    /// Faces and levels.
+    Container(Container),
 }
 
 /// A picture, fit to show, and what had to be replaced for that.
@@ -91,141 +149,50 @@ impl Loaded {
     }
 }
 
-/// What is wrong and where.
-#[derive(Debug, Error)]
-#[error("{problem}: {name}")]
-pub struct LoadError {
-    /// What is wrong and what helps.
-    pub problem: LoadProblem,
-    /// The file's path, or what else names the source.
-    pub name: String,
+/// Opens whatever there is.
+///
+/// # Errors
+/// [`LoadError`], one line: what was found, what to do, the path last. Never panics on a bad file.
+pub fn open(path: &Path, progress: &Progress) -> Result<Opened, LoadError> {
+    from_file(path, progress, |bytes| opened(bytes, progress))
 }
 
-/// Why a picture did not open. Each message ends in what to do.
-#[derive(Debug, Error)]
-pub enum LoadProblem {
-    /// The user stopped it.
-    #[error("opening was cancelled; open it again to go on")]
-    Cancelled,
-    /// The system refused.
-    #[error("the file cannot be read ({0}); check its name and rights")]
-    Io(io::Error),
-    /// Too many bytes.
-    #[error(
-        "the file has {bytes} bytes, the limit is {MOST_FILE_BYTES}; store it compressed or smaller"
-    )]
-    FileTooLong {
-        /// Length of the file.
-        bytes: u64,
-    },
-    /// No known signature.
-    #[error(
-        "the file starts with {start:02x?}, which no format here does; choose an HDR, EXR, PNG or JPEG file"
-    )]
-    UnknownFormat {
-        /// The first bytes, eight at most.
-        start: Vec<u8>,
-    },
-    /// The header declares more than is allowed. Nothing was decoded.
-    #[error(
-        "the file declares {width} x {height}, the limit is {MOST_WIDTH} x {MOST_HEIGHT}; scale it down"
-    )]
-    TooLarge {
-        /// Declared texels in a row.
-        width: u64,
-        /// Declared rows.
-        height: u64,
-    },
-    /// A ball's picture is larger than it can be shown.
-    #[error(
-        "the file declares {width} x {height}, a ball's picture has at most {MOST_BALL} a side; scale it down"
-    )]
-    BallTooLarge {
-        /// Declared texels in a row.
-        width: u64,
-        /// Declared rows.
-        height: u64,
-    },
-    /// Not twice as wide as high.
-    #[error(
-        "the picture is {width} x {height}, but a latlong is twice as wide as high; convert it, only latlong opens for now"
-    )]
-    NotLatlong {
-        /// Texels in a row.
-        width: u64,
-        /// Rows.
-        height: u64,
-    },
-    /// Not as wide as high.
-    #[error("the picture is {width} x {height}, but a ball's is square; crop it to the ball")]
-    NotSquare {
-        /// Texels in a row.
-        width: u64,
-        /// Rows.
-        height: u64,
-    },
-    /// The header declares more memory than the picture needs.
-    #[error(
-        "the header declares {declared} bytes for {what}, the limit is {limit}; store it with fewer channels, smaller tiles and without levels"
-    )]
-    TooMuch {
-        /// What for.
-        what: &'static str,
-        /// How many bytes.
-        declared: u64,
-        /// How many are allowed.
-        limit: u64,
-    },
-    /// Correct, but of a kind that does not open.
-    #[error("{} of this kind does not open: {what}", format.name())]
-    Unsupported {
-        /// Format of the file.
-        format: Format,
-        /// What is not supported and what is.
-        what: String,
-    },
-    /// Damaged or cut off.
-    #[error("the {} is damaged ({reason}); fetch or export it again", format.name())]
-    Damaged {
-        /// Format of the file.
-        format: Format,
-        /// What the decoder said.
-        reason: String,
-    },
-    /// The system has no room.
-    #[error("there is no memory for {bytes} bytes; scale the picture down or close something")]
-    OutOfMemory {
-        /// Bytes that were asked for.
-        bytes: u64,
-    },
+/// [`open`] for bytes in memory; `name` ends the error message.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_bytes(bytes: &[u8], name: &str, progress: &Progress) -> Result<Opened, LoadError> {
+    opened(bytes, progress).map_err(named(name))
 }
 
-impl From<ReadProblem> for LoadProblem {
-    fn from(problem: ReadProblem) -> Self {
-        match problem {
-            ReadProblem::Cancelled => Self::Cancelled,
-            ReadProblem::Io(error) => Self::Io(error),
-            ReadProblem::TooLong(bytes) => Self::FileTooLong { bytes },
-            ReadProblem::OutOfMemory(bytes) => Self::OutOfMemory { bytes },
-        }
-    }
+/// Reads one picture of any shape.
+///
+/// # Errors
+/// As [`open`], and for a container.
+pub fn read_raster(path: &Path, progress: &Progress) -> Result<RasterFile, LoadError> {
+    from_file(path, progress, |bytes| raster_file(bytes, progress))
 }
 
-impl LoadProblem {
-    fn damaged(format: Format, reason: impl ToString) -> Self {
-        Self::Damaged {
-            format,
-            reason: reason.to_string(),
-        }
-    }
+/// [`read_raster`] for bytes in memory; `name` ends the error message.
+///
+/// # Errors
+/// As [`read_raster`].
+pub fn read_raster_bytes(
+    bytes: &[u8],
+    name: &str,
+    progress: &Progress,
+) -> Result<RasterFile, LoadError> {
+    raster_file(bytes, progress).map_err(named(name))
 }
 
 /// Opens a latlong picture.
 ///
 /// # Errors
-/// [`LoadError`], one line: what was found, what to do, the path last. Never panics on a bad file.
+/// As [`open`], and for every other shape.
 pub fn load(path: &Path, progress: &Progress) -> Result<Loaded, LoadError> {
-    load_shaped(path, Shape::Latlong, progress)
+    from_file(path, progress, |bytes| {
+        loaded(bytes, Shape::Latlong, progress)
+    })
 }
 
 /// Opens a square picture of a ball.
@@ -233,40 +200,17 @@ pub fn load(path: &Path, progress: &Progress) -> Result<Loaded, LoadError> {
 /// # Errors
 /// As [`load`].
 pub fn load_ball(path: &Path, progress: &Progress) -> Result<Loaded, LoadError> {
-    load_shaped(path, Shape::Square, progress)
+    from_file(path, progress, |bytes| {
+        loaded(bytes, Shape::Square, progress)
+    })
 }
 
-fn load_shaped(path: &Path, shape: Shape, progress: &Progress) -> Result<Loaded, LoadError> {
-    let name = path.display().to_string();
-    match read_whole(path, MOST_FILE_BYTES, progress) {
-        Ok(bytes) => load_shaped_bytes(&bytes, shape, &name, progress),
-        Err(problem) => Err(LoadError {
-            problem: problem.into(),
-            name,
-        }),
-    }
-}
-
-/// Opens a latlong picture that is in memory; `name` ends the error message.
+/// [`load`] for bytes in memory; `name` ends the error message.
 ///
 /// # Errors
 /// As [`load`].
 pub fn load_bytes(bytes: &[u8], name: &str, progress: &Progress) -> Result<Loaded, LoadError> {
-    load_shaped_bytes(bytes, Shape::Latlong, name, progress)
-}
-
-fn load_shaped_bytes(
-    bytes: &[u8],
-    shape: Shape,
-    name: &str,
-    progress: &Progress,
-) -> Result<Loaded, LoadError> {
-    decode(bytes, shape, progress)
-        .map(|image| Loaded::from_image(image, progress))
-        .map_err(|problem| LoadError {
-            problem,
-            name: name.to_owned(),
-        })
+    loaded(bytes, Shape::Latlong, progress).map_err(named(name))
 }
 
 /// Size that a file declares, without decoding it: (width, height), not judged yet.
@@ -277,45 +221,119 @@ pub fn declared_size(bytes: &[u8]) -> Result<(u64, u64), LoadProblem> {
     format_of(bytes).and_then(|format| header::declared_size(format, bytes))
 }
 
+fn from_file<T>(
+    path: &Path,
+    progress: &Progress,
+    read: impl FnOnce(&[u8]) -> Result<T, LoadProblem>,
+) -> Result<T, LoadError> {
+    read_whole(path, MOST_FILE_BYTES, progress)
+        .map_err(LoadProblem::from)
+        .and_then(|bytes| read(&bytes))
+        .map_err(named(&path.display().to_string()))
+}
+
+fn named(name: &str) -> impl FnOnce(LoadProblem) -> LoadError {
+    move |problem| LoadError {
+        problem,
+        name: name.to_owned(),
+    }
+}
+
 fn format_of(bytes: &[u8]) -> Result<Format, LoadProblem> {
     Format::of(bytes).ok_or_else(|| LoadProblem::UnknownFormat {
         start: bytes[..bytes.len().min(8)].to_vec(),
     })
 }
 
-fn decode(bytes: &[u8], shape: Shape, progress: &Progress) -> Result<Image, LoadProblem> {
+fn opened(bytes: &[u8], progress: &Progress) -> Result<Opened, LoadProblem> {
+    let format = format_of(bytes)?;
+    if format.is_container() {
+        container::read(format, bytes, progress).map(Opened::Container)
+    } else {
+        raster_file(bytes, progress).map(Opened::Raster)
+    }
+}
+
+fn raster_file(bytes: &[u8], progress: &Progress) -> Result<RasterFile, LoadProblem> {
+    let (format, [width, height], decoded) = decode(bytes, Shape::Any, progress)?;
+    let raster = decoded.texels.into_raster([width, height]);
+    Ok(RasterFile {
+        raster: raster.ok_or_else(|| LoadProblem::damaged(format, "it has no texels"))?,
+        format,
+        stored: decoded.stored,
+        envmap: decoded.envmap,
+    })
+}
+
+fn loaded(bytes: &[u8], shape: Shape, progress: &Progress) -> Result<Loaded, LoadProblem> {
+    let (format, [width, height], decoded) = decode(bytes, shape, progress)?;
+    let image = Image::new(width, height, decoded.texels.into_light()?)
+        .map_err(|error| LoadProblem::damaged(format, error))?;
+    Ok(Loaded::from_image(image, progress))
+}
+
+fn decode(
+    bytes: &[u8],
+    shape: Shape,
+    progress: &Progress,
+) -> Result<(Format, [u32; 2], Decoded), LoadProblem> {
     let format = format_of(bytes)?;
     let (width, height) = header::declared_size(format, bytes)?;
-    let (width, height) = judged_size(width, height, shape)?;
+    let size = judged_size(width, height, shape)?;
     progress.enter(Stage::Decoding);
     stop_if_cancelled(progress)?;
     let job = Job {
         bytes,
-        width,
-        height,
+        width: size[0],
+        height: size[1],
+        keeps_bits: matches!(shape, Shape::Any),
         progress,
     };
-    let pixels = match format {
+    let decoded = match format {
         Format::Hdr => hdr::decode(&job)?,
         Format::Exr => exr::decode(&job)?,
         Format::Png => png::decode(&job)?,
         Format::Jpeg => jpeg::decode(&job)?,
+        Format::Ktx2 | Format::Dds => {
+            return Err(LoadProblem::Unsupported {
+                format,
+                what: "it holds faces and levels, and one picture is wanted; convert it".to_owned(),
+            });
+        }
     };
     stop_if_cancelled(progress)?;
-    Image::new(width, height, pixels).map_err(|error| LoadProblem::damaged(format, error))
+    Ok((format, size, decoded))
 }
 
-/// What every decoder gets. The size has been judged.
+/// What every decoder gets. The sides have been judged, the bytes are when they are reserved.
 struct Job<'a> {
     bytes: &'a [u8],
     width: u32,
     height: u32,
+    /// Whether every bit is wanted, or else light without opacity.
+    keeps_bits: bool,
     progress: &'a Progress,
 }
 
 impl Job<'_> {
     fn texels(&self) -> usize {
         self.width as usize * self.height as usize
+    }
+
+    /// Room for `count` values, within the limit on the bytes of a picture.
+    fn reserved<T>(&self, count: usize) -> Result<Vec<T>, LoadProblem> {
+        self.judge_bytes(count, size_of::<T>())?;
+        reserved(count)
+    }
+
+    /// `count` zeros, within the same limit.
+    fn zeroed<T: Clone>(&self, zero: T, count: usize) -> Result<Vec<T>, LoadProblem> {
+        self.judge_bytes(count, size_of::<T>())?;
+        zeroed(zero, count)
+    }
+
+    fn judge_bytes(&self, count: usize, size: usize) -> Result<(), LoadProblem> {
+        judged_bytes(self.width, self.height, count as u64 * size as u64)
     }
 
     /// Reports that `rows` are done; fails when the user wants to stop.
@@ -330,28 +348,67 @@ impl Job<'_> {
 enum Shape {
     Latlong,
     Square,
+    Any,
 }
 
-fn judged_size(width: u64, height: u64, shape: Shape) -> Result<(u32, u32), LoadProblem> {
-    match (u32::try_from(width), u32::try_from(height)) {
-        (Ok(w), Ok(h)) if w <= MOST_BALL && h <= MOST_BALL && matches!(shape, Shape::Square) => {
-            if w == 0 || w != h {
-                return Err(LoadProblem::NotSquare { width, height });
-            }
-            Ok((w, h))
-        }
-        _ if matches!(shape, Shape::Square) => Err(LoadProblem::BallTooLarge { width, height }),
-        (Ok(w), Ok(h)) if w <= MOST_WIDTH && h <= MOST_HEIGHT => {
+fn judged_size(width: u64, height: u64, shape: Shape) -> Result<[u32; 2], LoadProblem> {
+    let within = |most_width: u32, most_height: u32| {
+        let [w, h] = [u32::try_from(width).ok()?, u32::try_from(height).ok()?];
+        (w <= most_width && h <= most_height).then_some([w, h])
+    };
+    match shape {
+        Shape::Latlong => {
+            let size = within(MOST_WIDTH, MOST_HEIGHT);
+            let [w, h] = size.ok_or(LoadProblem::TooLarge { width, height })?;
             if w == 0 || h == 0 || w.abs_diff(2 * h) > 1 {
                 return Err(LoadProblem::NotLatlong { width, height });
             }
-            Ok((w, h))
+            Ok([w, h])
         }
-        _ => Err(LoadProblem::TooLarge { width, height }),
+        Shape::Square => {
+            let size = within(MOST_BALL, MOST_BALL);
+            let [w, h] = size.ok_or(LoadProblem::BallTooLarge { width, height })?;
+            if w == 0 || w != h {
+                return Err(LoadProblem::NotSquare { width, height });
+            }
+            Ok([w, h])
+        }
+        Shape::Any => judged_side(width, height),
     }
 }
 
-fn stop_if_cancelled(progress: &Progress) -> Result<(), LoadProblem> {
+/// The declared sides, where they are within the limit on any picture.
+pub(super) fn judged_side(width: u64, height: u64) -> Result<[u32; 2], LoadProblem> {
+    let side = |n: u64| u32::try_from(n).ok().filter(|n| *n <= MOST_SIDE);
+    // No format spends less than a byte on a texel in memory.
+    let bytes = width.saturating_mul(height);
+    match (side(width), side(height)) {
+        (Some(w), Some(h)) => {
+            judged_bytes(w, h, bytes)?;
+            Ok([w, h])
+        }
+        _ => Err(LoadProblem::TooManyBytes {
+            width,
+            height,
+            bytes,
+        }),
+    }
+}
+
+/// Whether that many bytes are within the limit on any picture.
+pub(super) fn judged_bytes(width: u32, height: u32, bytes: u64) -> Result<(), LoadProblem> {
+    if bytes > MOST_RASTER_BYTES {
+        let (width, height) = (u64::from(width), u64::from(height));
+        return Err(LoadProblem::TooManyBytes {
+            width,
+            height,
+            bytes,
+        });
+    }
+    Ok(())
+}
+
+pub(super) fn stop_if_cancelled(progress: &Progress) -> Result<(), LoadProblem> {
     if progress.is_cancelled() {
         Err(LoadProblem::Cancelled)
     } else {

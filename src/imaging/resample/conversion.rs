@@ -144,9 +144,14 @@ impl Conversion {
                 layout: self.layout.id(),
             },
         )?;
+        let mut pictures = 0;
         for (chart, placement) in charts.iter_mut().enumerate() {
             if self.charts & (1 << chart.min(31)) == 0 {
                 *placement = None;
+            } else if let (Layout::Faces, Some(placement)) = (self.layout, placement) {
+                // A picture for each chart that is wanted, none for the others.
+                placement.raster = pictures;
+                pictures += 1;
             }
         }
         Ok(MapShape {

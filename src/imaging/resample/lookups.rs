@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+use super::geometry::{Geometry, Place};
+use super::grid::split;
+
 /// Places in the source, one for each texel of a run of a target row; the same index in every list.
 ///
 /// A place is split into the whole texel and the rest, so that charts of 16384 texels are resolved to far less than a
@@ -32,6 +35,22 @@ impl Lookups {
         self.right.resize(count, 0.0);
         self.below.resize(count, 0.0);
     }
+
+    /// How many places there are.
+    pub fn len(&self) -> usize {
+        self.chart.len()
+    }
+
+    /// Puts a place, or nowhere, at an index.
+    pub fn set(&mut self, index: usize, place: Option<Place>) {
+        let Some(place) = place else {
+            self.chart[index] = Self::NOWHERE;
+            return;
+        };
+        self.chart[index] = place.chart;
+        (self.column[index], self.right[index]) = split(place.at[0]);
+        (self.row[index], self.below[index]) = split(place.at[1]);
+    }
 }
 
 /// A way to find the places. The general one asks the target's inverse and the source's forward function for every texel;
@@ -39,4 +58,17 @@ impl Lookups {
 pub(super) trait Places: Sync {
     /// The places of the texels `columns` of row `row` of the target's chart `chart`; `out` gets that many.
     fn fill(&self, chart: u32, row: u32, columns: Range<u32>, out: &mut Lookups);
+}
+
+/// The general way: texel by texel.
+impl Places for Geometry {
+    fn fill(&self, chart: u32, row: u32, columns: Range<u32>, out: &mut Lookups) {
+        out.resize(columns.len());
+        for (index, column) in columns.enumerate() {
+            out.set(
+                index,
+                self.place(chart, [f64::from(column), f64::from(row)]),
+            );
+        }
+    }
 }

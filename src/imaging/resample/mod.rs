@@ -3,16 +3,41 @@
 //! - [`Conversion`]: what is wanted, plain data;
 //! - [`Plan`]: what can be computed before any pixel is there; one plan serves a sequence of frames;
 //! - [`Plan::run`]: fills a map, on all threads, strip by strip.
+//!
+//! # How it works
+//!
+//! A target row goes through three steps, each behind a trait, so that a faster way can stand in for one of them or for all:
+//!
+//! 1. *Places* (`lookups`): where each texel looks in the source. The general way (`geometry`) asks the target's inverse, turns
+//!    the direction, and asks the source's forward function.
+//! 2. *Light* (`filter`, `Sampler`): what is there. The source is read where it lies (`texels`): a chart is a base and two
+//!    strides. Texels beyond a chart are its gutter: each holds the light of its own direction, which the mapping's continued
+//!    inverse tells, so that filters meet no seam.
+//! 3. *Samples* (`encode`): exposure, the sRGB code, rounding.
+//!
+//! `strips` runs a `Kernel` over the target's pictures: `general` does the three steps one after another, for every pair of
+//! mappings, every kind of samples and every filter; a kernel for one kind may do them at once. `area` says at which places a
+//! texel that covers many asks.
 
+mod area;
 mod conversion;
-#[expect(dead_code, reason = "the first user comes with the engine")]
+mod encode;
+mod filter;
+mod general;
+mod geometry;
+mod grid;
 mod lookups;
+mod plan;
 mod report;
+mod stored;
+mod strips;
+mod texels;
 
 pub use conversion::{Conversion, Filter, FilteredIn, Isa};
+pub use plan::{MOST_SIDE, Plan};
 pub use report::{Report, Skipped};
 
-use super::{EnvironmentMap, MapShape, Progress};
+use super::{EnvironmentMap, Progress};
 
 /// Why a conversion cannot be done.
 #[derive(Debug, thiserror::Error)]
@@ -52,47 +77,6 @@ pub enum ResampleError {
         /// Bytes that were asked for.
         bytes: u64,
     },
-}
-
-/// What a conversion needs to know that depends on the shapes alone.
-#[derive(Clone, Debug)]
-pub struct Plan {
-    source: MapShape,
-    target: MapShape,
-    conversion: Conversion,
-}
-
-impl Plan {
-    /// Prepares a conversion of maps of a shape.
-    ///
-    /// # Errors
-    /// When the conversion makes no sense; see [`ResampleError`].
-    pub fn new(source: &MapShape, conversion: &Conversion) -> Result<Self, ResampleError> {
-        let target = conversion.target_shape(source)?;
-        Ok(Self {
-            source: source.clone(),
-            target,
-            conversion: conversion.clone(),
-        })
-    }
-
-    /// Shape of the map that comes out.
-    pub const fn target(&self) -> &MapShape {
-        &self.target
-    }
-
-    /// Converts one map.
-    ///
-    /// # Errors
-    /// When it is cancelled, there is no memory, or the source has another shape than the plan's.
-    pub fn run(
-        &self,
-        source: &EnvironmentMap,
-        progress: &Progress,
-    ) -> Result<(EnvironmentMap, Report), ResampleError> {
-        let _ = (&self.source, &self.conversion, source, progress);
-        Err(ResampleError::BadNumber("not built yet".to_owned()))
-    }
 }
 
 /// Converts one map: [`Plan::new`] and [`Plan::run`].
