@@ -1,7 +1,7 @@
 //! How the environment is turned: by numbers, and by three rings around the object.
 //!
-//! Each ring turns one of the numbers and nothing else: yaw's ring lies flat, pitch's is carried along by the yaw, roll's by
-//! both. On each ring a knob stands at its angle.
+//! Each ring turns one of the numbers and nothing else: the roll's ring stands upright, the pitch's is carried along by the roll, the
+//! yaw's by both. On each ring a knob stands at its angle; it goes where the surroundings go.
 
 use egui::{Align2, DragValue, Painter, Pos2, Rect, Sense, Ui, Vec2, vec2};
 use glam::DVec3;
@@ -15,11 +15,11 @@ use crate::scene::Camera;
 
 /// The angles' names, in the order of [`Rotation::degrees`].
 const NAMES: [&str; 3] = ["yaw", "pitch", "roll"];
-/// What a positive angle does.
+/// What a positive angle does, as `sixfold convert --rotate` has it.
 const SENSES: [&str; 3] = [
-    "to the right: what was ahead (+z) is then at the right (+x)",
-    "upwards: what was ahead (+z) is then up (+y)",
-    "clockwise: what was up (+y) is then at the right (+x)",
+    "turns the viewer to the right: ahead (+z) is then what was at the right (+x)",
+    "turns the viewer upwards: ahead (+z) is then what was up (+y)",
+    "turns the viewer clockwise: up (+y) is then what was at the right (+x)",
 ];
 /// Axis of the world that a ring stands for, by its colour: y, x, z.
 const COLORS: [usize; 3] = [1, 0, 2];
@@ -84,7 +84,7 @@ impl Ring {
         let marker = if self.index == 2 { DVec3::Y } else { DVec3::Z };
         let mut angles = self.rotation.degrees();
         angles[self.index] = degrees;
-        angles[self.index + 1..].fill(0.0);
+        angles[..self.index].fill(0.0);
         let rows = Rotation::from_degrees(angles).world_from_source();
         let camera = self.camera.sanitized();
         let radius = RADIUS * camera.distance * (0.5 * camera.fov_y_rad).tan();

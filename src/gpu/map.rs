@@ -122,7 +122,6 @@ impl Map {
             .next_multiple_of(stride.max(1));
         let mut bytes = vec![0u8; stride * targets.len()];
         let [texels_per_rad, last_level] = environment.resolution();
-        // The rows of the inverse turn are its columns.
         let columns = rotation
             .world_from_source()
             .map(|row| vec4(row.map(|x| x as f32), 0.0));

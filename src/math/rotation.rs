@@ -7,11 +7,14 @@ use serde::{Deserialize, Serialize};
 
 use super::{Real, Vec3};
 
-/// A turn of the surroundings as seen from their middle, looking along +z. First the roll, then the pitch, then the yaw:
+/// A turn of the viewer among surroundings that stay: first the yaw, then the pitch, then the roll, each about the viewer's
+/// own axes.
 ///
-/// - `roll_deg` > 0 turns them clockwise about +z: what was up (+y) is then at the right (+x);
-/// - `pitch_deg` > 0 turns them upwards about +x: what was ahead (+z) is then up (+y);
-/// - `yaw_deg` > 0 turns them to the right about +y: what was ahead (+z) is then at the right (+x).
+/// - `yaw_deg` > 0 turns the viewer to the right: ahead (+z) is then what was at the right (+x), and the surroundings go to
+///   the left;
+/// - `pitch_deg` > 0 turns the viewer upwards: ahead is then what was up (+y), and the surroundings go down;
+/// - `roll_deg` > 0 turns the viewer clockwise: up is then what was at the right, and the surroundings turn
+///   counter-clockwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Rotation {
@@ -83,9 +86,9 @@ impl Rotation {
         self.sanitized() == Self::NONE
     }
 
-    /// Where each direction of the surroundings as they lie in their file is seen: yaw x pitch x roll. Quarter turns are
-    /// exact.
-    pub fn world_from_source(self) -> Rows {
+    /// Where the light of a direction of the world lies in the surroundings: yaw x pitch x roll. Quarter turns are exact.
+    /// [`Conversion::rotation`](crate::imaging::resample::Conversion::rotation) is this matrix.
+    pub fn source_from_world(self) -> Rows {
         let [yaw, pitch, roll] = self.degrees().map(sin_cos_deg);
         let about_z = [
             [roll.1, roll.0, 0.0],
@@ -101,9 +104,9 @@ impl Rotation {
         product(about_y, product(about_x, about_z))
     }
 
-    /// Where the light of a direction of the world lies in the file: the transpose of [`Self::world_from_source`].
-    pub fn source_from_world(self) -> Rows {
-        transposed(self.world_from_source())
+    /// Where a direction of the surroundings is seen: the transpose of [`Self::source_from_world`].
+    pub fn world_from_source(self) -> Rows {
+        transposed(self.source_from_world())
     }
 }
 
@@ -157,8 +160,9 @@ mod tests {
     const UP: [f64; 3] = [0.0, 1.0, 0.0];
     const RIGHT: [f64; 3] = [1.0, 0.0, 0.0];
 
+    /// What the turned viewer sees in a direction of his.
     fn seen(angles: [f64; 3], dir: [f64; 3]) -> [f64; 3] {
-        let rows = Rotation::from_degrees(angles).world_from_source();
+        let rows = Rotation::from_degrees(angles).source_from_world();
         turned(rows, Vec3::<f64>::from_f64(dir)).to_array()
     }
 
@@ -169,8 +173,9 @@ mod tests {
         assert_eq!(seen([0.0, 0.0, 90.0], UP), RIGHT);
         assert_ne!(seen([-90.0, 0.0, 0.0], AHEAD), RIGHT, "control");
         assert_eq!(seen([0.0, 0.0, 90.0], AHEAD), AHEAD);
-        // Roll, then pitch, then yaw: up goes right and stays there, then ahead of the other way round.
+        // To the right, then up, then clockwise: the right of who looks to the right is what was behind.
         assert_eq!(seen([90.0, 90.0, 90.0], UP), [0.0, 0.0, -1.0]);
+        assert_eq!(seen([90.0, 45.0, 0.0], RIGHT), [0.0, 0.0, -1.0]);
         assert_eq!(seen([180.0, 0.0, 0.0], AHEAD), [0.0, 0.0, -1.0]);
     }
 
