@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all.
 
 use std::fs::File;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -39,24 +39,35 @@ pub fn check_name(path: &Path, force: bool) -> Result<(), WriteError> {
     }
 }
 
-/// Writes `bytes` to `path`: a temporary file beside it, flushed to the disk, then renamed. Whoever looks at `path` sees the
-/// old state or all of the new one. An existing file is replaced only with `force`; without it the last step itself fails
-/// when a file has appeared meanwhile.
+/// A file that is written from anywhere to anywhere.
+pub trait WriteSeek: Write + Seek {}
+
+impl<T: Write + Seek> WriteSeek for T {}
+
+/// Writes `bytes` to `path`, as [`write_atomically_with`] does.
 ///
 /// # Errors
 /// See [`WriteError`]; the temporary file is gone then.
 pub fn write_atomically(path: &Path, force: bool, bytes: &[u8]) -> Result<(), WriteError> {
+    write_atomically_with(path, force, |out| {
+        out.write_all(bytes)
+            .map_err(|cause| WriteError::of(cause, path))
+    })
+}
+
+/// Lets `write` fill a temporary file beside `path`, which is flushed to the disk, then renamed. Whoever looks at `path` sees
+/// the old state or all of the new one. An existing file is replaced only with `force`; without it the last step itself
+/// fails when a file has appeared meanwhile.
+///
+/// # Errors
+/// What `write` returns, and see [`WriteError`]; the temporary file is gone then.
+pub fn write_atomically_with<E: From<WriteError>>(
+    path: &Path,
+    force: bool,
+    write: impl FnOnce(&mut dyn WriteSeek) -> Result<(), E>,
+) -> Result<(), E> {
     check_name(path, force)?;
-    let failed = |cause: io::Error| {
-        if cause.kind() == io::ErrorKind::AlreadyExists {
-            WriteError::Exists(path.to_owned())
-        } else {
-            WriteError::Io {
-                cause,
-                path: path.to_owned(),
-            }
-        }
-    };
+    let failed = |cause: io::Error| WriteError::of(cause, path);
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
@@ -67,7 +78,10 @@ pub fn write_atomically(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Wr
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let mut temporary = builder.tempfile_in(folder).map_err(failed)?;
-    temporary.write_all(bytes).map_err(failed)?;
+    let mut buffered = BufWriter::new(temporary.as_file_mut());
+    write(&mut buffered)?;
+    buffered.flush().map_err(failed)?;
+    drop(buffered);
     temporary.as_file().sync_all().map_err(failed)?;
     let renamed = if force {
         temporary.persist(path)
@@ -80,4 +94,17 @@ pub fn write_atomically(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Wr
         folder.sync_all().ok();
     }
     Ok(())
+}
+
+impl WriteError {
+    fn of(cause: io::Error, path: &Path) -> Self {
+        if cause.kind() == io::ErrorKind::AlreadyExists {
+            Self::Exists(path.to_owned())
+        } else {
+            Self::Io {
+                cause,
+                path: path.to_owned(),
+            }
+        }
+    }
 }

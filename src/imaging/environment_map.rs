@@ -1,7 +1,7 @@
 //! An environment map as it lies in memory: which mapping, and where each chart lies in which picture.
 
 use super::{Channels, Raster, SampleKind, Transfer};
-use crate::mapping::{Axes, Layout, MappingId, Turn};
+use crate::mapping::{Arrangement, Axes, Frame, FrameError, Layout, MappingId, Turn};
 
 /// Where the samples of a chart of n texels sit, along each side.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -82,6 +82,49 @@ impl MapShape {
                 }))
             })
             .collect()
+    }
+
+    /// Takes each picture, until now the chart of its label, for what the arrangement says that it is. For six charts; a map
+    /// of fewer stays as it is.
+    pub fn arrange(&mut self, arrangement: &Arrangement) {
+        let Ok(labelled) = <[Option<Placement>; 6]>::try_from(self.charts.as_slice()) else {
+            return;
+        };
+        for (held, placement) in arrangement.held().iter().zip(labelled) {
+            self.charts[held.chart as usize] = placement.map(|placement| Placement {
+                turn: held.turn.then(placement.turn),
+                ..placement
+            });
+        }
+    }
+
+    /// Takes a map that was laid out plainly for one that a program has laid out in its own way.
+    ///
+    /// # Errors
+    /// When nothing is known of that program's maps of this mapping.
+    pub fn apply_frame(&mut self, frame: &Frame, layout: Layout) -> Result<(), FrameError> {
+        let unknown = || frame.unknown(self.mapping);
+        if !frame.knows(self.mapping) {
+            return Err(unknown());
+        }
+        if let (Some(cube), Some(arrangement)) = (frame.cube, frame.arrangement())
+            && self.charts.len() == 6
+        {
+            // Where the cells stand for the labels, as in a cross or six files, the order says nothing.
+            if matches!(layout, Layout::Row | Layout::Column | Layout::ThreeByTwo) {
+                let in_order = self.charts.clone();
+                for (label, placement) in cube.order.into_iter().zip(in_order) {
+                    self.charts[label] = placement;
+                }
+            }
+            self.arrange(&arrangement);
+        } else {
+            self.world_from_map = frame.world_from_map(self.mapping).ok_or_else(unknown)?;
+        }
+        if frame.is_edge_sited {
+            self.siting = Siting::Edge;
+        }
+        Ok(())
     }
 }
 

@@ -60,6 +60,11 @@ impl Image {
         &self.pixels
     }
 
+    /// All texels, without the picture.
+    pub fn into_pixels(self) -> Vec<[f32; 3]> {
+        self.pixels
+    }
+
     /// All texels, to change in place.
     pub fn pixels_mut(&mut self) -> &mut [[f32; 3]] {
         &mut self.pixels

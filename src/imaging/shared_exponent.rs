@@ -4,8 +4,6 @@
 //! smallest that holds the largest component once it is rounded (EXT_texture_shared_exponent, section 2.1.X; Ward's format
 //! differs in rounding down, which loses a half step of every value).
 
-#![expect(dead_code, reason = "the writers come next")]
-
 /// A format of this kind.
 pub(super) struct SharedExponent {
     /// Bits of a mantissa.

@@ -17,29 +17,21 @@ pub struct Held {
 
 /// For each of the six pictures labelled +x -x +y -y +z -z, in this order, the face that it really is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Arrangement(pub(super) [Held; 6]);
+pub struct Arrangement([Held; 6]);
 
 impl Arrangement {
     /// Every picture is the face of its label, upright.
     pub const IDENTITY: Self = Self::upright([0, 1, 2, 3, 4, 5]);
 
     /// These charts, each upright; must be a permutation.
-    pub(super) const fn upright(charts: [u32; 6]) -> Self {
-        Self::turned(charts, [0; 6])
-    }
-
-    /// These charts, each turned clockwise by so many quarters; must be a permutation.
-    pub(super) const fn turned(charts: [u32; 6], quarters: [u8; 6]) -> Self {
+    pub(crate) const fn upright(charts: [u32; 6]) -> Self {
         let mut held = [Held {
             chart: 0,
             turn: Turn::UPRIGHT,
         }; 6];
         let mut label = 0;
         while label < 6 {
-            held[label] = Held {
-                chart: charts[label],
-                turn: Turn::new(quarters[label], false),
-            };
+            held[label].chart = charts[label];
             label += 1;
         }
         Self(held)

@@ -114,6 +114,15 @@ impl Axes {
         rows
     }
 
+    /// The components of `vector` in a shader's words: `d.x`, `-d.z` and so on.
+    pub fn expressions(self, vector: &str) -> [String; 3] {
+        [0, 1, 2].map(|i| {
+            let sign = if self.negative[i] { "-" } else { "" };
+            let name = ["x", "y", "z"][usize::from(self.from[i])];
+            format!("{sign}{vector}.{name}")
+        })
+    }
+
     /// Whether left and right are exchanged: a determinant of -1.
     pub fn is_mirroring(self) -> bool {
         let [[a, b, c], [d, e, f], [g, h, i]] = self.matrix();

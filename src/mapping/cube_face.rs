@@ -128,6 +128,80 @@ pub fn from_frame<R: Real>(face: u32, sc: R, tc: R, ma: R) -> Vec3<R> {
     }
 }
 
+/// A side of a face's square.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Side {
+    /// u = 0; v runs along it.
+    Left,
+    /// u = 1; v runs along it.
+    Right,
+    /// v = 0; u runs along it.
+    Top,
+    /// v = 1; u runs along it.
+    Bottom,
+}
+
+impl Side {
+    /// All four.
+    pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Top, Self::Bottom];
+
+    /// The place on it, in [0, 1]^2, so far along its coordinate.
+    pub const fn place(self, along: f64) -> [f64; 2] {
+        match self {
+            Self::Left => [0.0, along],
+            Self::Right => [1.0, along],
+            Self::Top => [along, 0.0],
+            Self::Bottom => [along, 1.0],
+        }
+    }
+
+    /// The side that a place lies on, and how far along; `None` away from the sides.
+    pub fn of_place([u, v]: [f64; 2]) -> Option<(Self, f64)> {
+        Self::ALL.into_iter().find_map(|side| {
+            let along = match side {
+                Self::Left | Self::Right => v,
+                Self::Top | Self::Bottom => u,
+            };
+            (side.place(along) == [u, v]).then_some((side, along))
+        })
+    }
+}
+
+/// The other face at a side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Neighbour {
+    /// The face.
+    pub face: u32,
+    /// Its side that is the same edge of the cube.
+    pub side: Side,
+    /// Whether the coordinates along the edge run against each other.
+    pub is_reversed: bool,
+}
+
+/// What lies across a side of a face.
+pub fn across(face: u32, side: Side) -> Neighbour {
+    // A point of the edge, not in its middle: it lies on the other face too, where its frame gives 1 for the axis.
+    const ALONG: f64 = 0.25;
+    let [u, v] = side.place(ALONG);
+    let point: Vec3<f64> = from_frame(face, to_signed(u), to_signed(v), 1.0);
+    let found = (0..6).filter(|other| *other != face).find_map(|other| {
+        let (sc, tc, ma) = to_frame(other, point);
+        let place = [(sc + 1.0) / 2.0, (tc + 1.0) / 2.0];
+        let (side, along) = Side::of_place(place).filter(|_| ma == 1.0)?;
+        Some(Neighbour {
+            face: other,
+            side,
+            is_reversed: along != ALONG,
+        })
+    });
+    // Every edge has two faces; the face itself stands for one that there is not.
+    found.unwrap_or(Neighbour {
+        face,
+        side,
+        is_reversed: false,
+    })
+}
+
 /// A face and the point (a, b) in [-1, 1]^2 of its gnomonic plane; `None` for a vector that is no direction.
 pub fn gnomonic<R: Real>(dir: Vec3<R>, choose: fn(Vec3<R>) -> u32) -> Option<(u32, R, R)> {
     let scaled = dir.scaled_direction()?;
@@ -185,4 +259,38 @@ pub fn meeting_faces<R: Real>(dir: Vec3<R>) -> Vec<u32> {
         .into_iter()
         .flatten()
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_faces_of_an_edge_agree_on_it() {
+        let mut edges = std::collections::HashSet::new();
+        for face in 0..6 {
+            for side in Side::ALL {
+                let other = across(face, side);
+                assert_ne!(other.face, face);
+                let back = across(other.face, other.side);
+                let here = (face, side, other.is_reversed);
+                assert_eq!((back.face, back.side, back.is_reversed), here);
+                edges.insert((face.min(other.face), face.max(other.face)));
+                for along in [0.0, 0.1, 0.7] {
+                    let there = if other.is_reversed {
+                        1.0 - along
+                    } else {
+                        along
+                    };
+                    let dir = |face, [u, v]: [f64; 2]| -> Vec3<f64> {
+                        from_gnomonic(face, to_signed(u), to_signed(v))
+                    };
+                    let gap =
+                        dir(face, side.place(along)) - dir(other.face, other.side.place(there));
+                    assert!(gap.length() < 1e-15, "{face} {side:?}");
+                }
+            }
+        }
+        assert_eq!(edges.len(), 12);
+    }
 }

@@ -52,7 +52,7 @@ pub struct CubeFrame {
 }
 
 /// A program's way to have environment maps.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub struct Frame {
     /// Name on the command line.
     pub id: &'static str,

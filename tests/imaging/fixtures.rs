@@ -181,3 +181,10 @@ pub fn crc32(bytes: &[u8]) -> u32 {
         })
     })
 }
+
+pub fn next(state: &mut u64) -> u64 {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    *state
+}

@@ -1,8 +1,10 @@
 //! Bombs, broken headers, truncated and mutated files.
 
-use sixfold::imaging::load::{Format, LoadProblem, declared_size};
+use sixfold::imaging::load::{Format, LoadProblem, declared_size, read_raster_bytes};
+use sixfold::imaging::{Progress, Stored};
 
-use super::fixtures::{crc32, hdr, open, seeds};
+use super::containers::{marked_cube, open as open_container, write};
+use super::fixtures::{crc32, hdr, next, open, seeds};
 
 fn hdr_bomb() -> Vec<u8> {
     b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n".to_vec()
@@ -193,13 +195,6 @@ fn truncated_files_end_in_a_message() {
     }
 }
 
-fn next(state: &mut u64) -> u64 {
-    *state ^= *state << 13;
-    *state ^= *state >> 7;
-    *state ^= *state << 17;
-    *state
-}
-
 /// Makes the check sums of all chunks right again, so that damage reaches the decoder.
 fn repair_png(bytes: &mut [u8]) {
     let mut at = 8;
@@ -217,44 +212,56 @@ fn repair_png(bytes: &mut [u8]) {
     }
 }
 
-#[test]
-fn mutated_files_never_panic() {
-    let rounds: u64 = std::env::var("SIXFOLD_MUTATIONS")
+/// Rounds for each kind of file; `SIXFOLD_MUTATIONS` sets those of a longer run. The seeds of a format share them.
+fn rounds(seeds_of_format: u64) -> u64 {
+    let rounds = std::env::var("SIXFOLD_MUTATIONS")
         .ok()
         .and_then(|n| n.parse().ok())
-        .unwrap_or(300);
-    for (format, whole) in seeds() {
+        .unwrap_or(2000);
+    rounds / seeds_of_format
+}
+
+fn damage(bytes: &mut Vec<u8>, state: &mut u64) {
+    for _ in 0..=next(state) % 4 {
+        let at = (next(state) % bytes.len() as u64) as usize;
+        match next(state) % 4 {
+            0 => bytes[at] = next(state) as u8,
+            1 => bytes[at] ^= 1 << (next(state) % 8),
+            2 => bytes[at] = [0, 1, 0x7f, 0x80, 0xff][(next(state) % 5) as usize],
+            _ => drop(bytes.remove(at)),
+        }
+    }
+}
+
+#[test]
+fn mutated_files_never_panic() {
+    let seeds = seeds();
+    for (format, whole) in &seeds {
+        let alike = seeds.iter().filter(|(other, _)| other == format).count();
         let (mut state, mut opened, mut refused) = (0x9E37_79B9_7F4A_7C15, 0, 0);
-        for round in 0..rounds {
+        for round in 0..rounds(alike as u64) {
             let mut bytes = whole.clone();
-            for _ in 0..=next(&mut state) % 4 {
-                let at = (next(&mut state) % bytes.len() as u64) as usize;
-                match next(&mut state) % 4 {
-                    0 => bytes[at] = next(&mut state) as u8,
-                    1 => bytes[at] ^= 1 << (next(&mut state) % 8),
-                    2 => bytes[at] = [0, 1, 0x7f, 0x80, 0xff][(next(&mut state) % 5) as usize],
-                    _ => drop(bytes.remove(at)),
-                }
-            }
-            if format == Format::Png && round % 2 == 0 {
+            damage(&mut bytes, &mut state);
+            if *format == Format::Png && round % 2 == 0 {
                 repair_png(&mut bytes);
             }
-            match open(&bytes) {
-                Ok(loaded) => {
+            // Of any shape, with all its bits; a latlong of the same file is then what is shown.
+            let raster = read_raster_bytes(&bytes, "here.pic", &Progress::new());
+            match (open(&bytes), raster) {
+                (Ok(loaded), Ok(file)) => {
                     opened += 1;
-                    assert!(
-                        loaded
-                            .image
-                            .pixels()
-                            .iter()
-                            .flatten()
-                            .all(|c| (0.0..=65504.0).contains(c))
-                    );
+                    assert_eq!(file.raster.width(), loaded.image.width());
+                    let mut values = loaded.image.pixels().iter().flatten();
+                    assert!(values.all(|c| (0.0..=65504.0).contains(c)));
                 }
-                Err(error) => {
+                (Err(error), raster) => {
                     refused += 1;
                     assert!(error.to_string().ends_with(": here.pic"));
+                    if let Err(error) = raster {
+                        assert!(error.to_string().ends_with(": here.pic"));
+                    }
                 }
+                (Ok(_), Err(error)) => panic!("{format:?}: only the latlong opens: {error}"),
             }
         }
         // Both happen, or the mutations test nothing.
@@ -263,4 +270,139 @@ fn mutated_files_never_panic() {
             "{format:?}: {opened} opened, {refused} refused"
         );
     }
+}
+
+#[test]
+fn mutated_containers_never_panic() {
+    for format in [Format::Ktx2, Format::Dds] {
+        let seeds = container_seeds(format);
+        for whole in &seeds {
+            assert!(
+                open_container(whole).is_ok(),
+                "{format:?}: the whole does not open"
+            );
+            let (mut state, mut opened, mut refused) = (0x9E37_79B9_7F4A_7C15, 0, 0);
+            for round in 0..rounds(seeds.len() as u64) {
+                let mut bytes = whole.clone();
+                damage(&mut bytes, &mut state);
+                // Every other round aims at what stands before the texels.
+                if round % 2 == 0 {
+                    let at = (next(&mut state) % 260.min(bytes.len() as u64)) as usize;
+                    bytes[at] = next(&mut state) as u8;
+                }
+                match open_container(&bytes) {
+                    Ok(container) => {
+                        opened += 1;
+                        assert!(
+                            container
+                                .levels
+                                .iter()
+                                .all(|l| matches!(l.rasters.len(), 1 | 6))
+                        );
+                    }
+                    Err(error) => {
+                        refused += 1;
+                        let text = error.to_string();
+                        assert!(
+                            text.ends_with(": here.pic") && !text.contains('\n'),
+                            "{text}"
+                        );
+                    }
+                }
+            }
+            assert!(
+                opened > 0 && refused > 0,
+                "{format:?}: {opened} opened, {refused} refused"
+            );
+        }
+    }
+}
+
+fn container_seeds(format: Format) -> Vec<Vec<u8>> {
+    let kinds = [Stored::Half, Stored::F32, Stored::Rgb9e5];
+    let cubes = kinds.map(|stored| marked_cube(4, stored));
+    let packings: &[bool] = match format {
+        Format::Ktx2 => &[false, true],
+        _ => &[false],
+    };
+    let each = |zstd: &bool| {
+        cubes
+            .iter()
+            .map(move |cube| write(cube, format, *zstd))
+            .collect()
+    };
+    packings
+        .iter()
+        .flat_map(|zstd| -> Vec<Vec<u8>> { each(zstd) })
+        .collect()
+}
+
+#[test]
+fn containers_that_lie_are_refused() {
+    let refused = |bytes: &[u8], word: &str| {
+        let text = open_container(bytes).unwrap_err().to_string();
+        assert!(
+            text.contains(word) && text.ends_with(": here.pic"),
+            "{word}: {text}"
+        );
+    };
+    let cube = marked_cube(4, Stored::Half);
+    let plain = write(&cube, Format::Ktx2, false);
+    let packed = write(&cube, Format::Ktx2, true);
+    let dds = write(&cube, Format::Dds, false);
+    let with = |bytes: &[u8], at: usize, value: &[u8]| {
+        let mut bytes = bytes.to_vec();
+        bytes[at..at + value.len()].copy_from_slice(value);
+        bytes
+    };
+    let big = (1_u32 << 31).to_le_bytes();
+    let huge = (u64::MAX - 3).to_le_bytes();
+    refused(&with(&plain, 40, &big), "declares 2147483648 levels");
+    refused(&with(&plain, 36, &big), "declares 2147483648 faces");
+    refused(&with(&plain, 20, &[big, big].concat()), "49152 a side");
+    let side = 32768_u32.to_le_bytes();
+    refused(&with(&plain, 20, &[side, side].concat()), "unpacked");
+    refused(&with(&plain, 24, &8_u32.to_le_bytes()), "not square");
+    refused(
+        &with(&plain, 48, &[0xf0; 8]),
+        "descriptor lies beyond its end",
+    );
+    refused(
+        &with(&plain, 56, &[0xf0; 8]),
+        "key-value data lies beyond its end",
+    );
+    refused(&with(&plain, 80, &huge), "level 0 lies beyond its end");
+    refused(&with(&plain, 88, &huge), "level 0 declares");
+    refused(&with(&packed, 96, &huge), "level 0 declares");
+    refused(&with(&plain, 80, &[0; 8]), "overlap");
+    // The descriptor stands after three levels' places.
+    refused(&with(&plain, 152, &[0xff; 4]), "descriptor");
+    refused(&with(&plain, 152 + 12, &[163]), "descriptor");
+    refused(&plain[..60], "breaks off");
+    refused(&plain[..100], "beyond its end");
+    refused(&dds[..100], "breaks off");
+    refused(&dds[..dds.len() - 1], "bytes of texels instead of");
+    refused(&with(&dds, 28, &big), "declares 2147483648 levels");
+    refused(&with(&dds, 12, &[big, big].concat()), "49152 a side");
+    refused(&with(&dds, 4, &big), "2147483648");
+
+    // A bomb: Zstandard's own run of one byte, 128 KiB from four, again and again, behind a size of 4 x 4. 2.6 GB would come
+    // out; no more is unpacked than the declared size, and a byte.
+    let mut alone = cube.clone();
+    alone.levels.truncate(1);
+    let alone = write(&alone, Format::Ktx2, true);
+    let start = usize::try_from(u64::from_le_bytes(alone[80..88].try_into().unwrap())).unwrap();
+    let mut bomb = alone[..start].to_vec();
+    bomb.extend([0x28, 0xb5, 0x2f, 0xfd, 0x00, 0x58]); // magic, no sizes, a window of 2 MiB
+    for left in (0..20_000).rev() {
+        let header: u32 = u32::from(left == 0) | 1 << 1 | (1 << 17) << 3;
+        bomb.extend(&header.to_le_bytes()[..3]);
+        bomb.push(7);
+    }
+    let length = (bomb.len() - start) as u64;
+    let bomb = with(&bomb, 88, &length.to_le_bytes());
+    refused(&bomb, "level 0 unpacks to more than it declares");
+    // Control: cut short, it is damaged in another way.
+    let cut = with(&bomb, 88, &6_u64.to_le_bytes());
+    refused(&cut, "damaged");
 }

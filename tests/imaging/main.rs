@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod computed;
+mod containers;
 mod files;
 mod fixtures;
 mod formats;
 mod hostile;
+mod saved;

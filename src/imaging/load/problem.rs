@@ -94,6 +94,9 @@ pub enum LoadProblem {
         /// Rows.
         height: u64,
     },
+    /// It opens, but which map it is cannot be told, or it does not fit what was said of it.
+    #[error("{0}")]
+    Unclear(String),
     /// The header declares more memory than the picture needs.
     #[error(
         "the header declares {declared} bytes for {what}, the limit is {limit}; store it with fewer channels, smaller tiles and without levels"

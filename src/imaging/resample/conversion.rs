@@ -2,7 +2,7 @@
 
 use super::ResampleError;
 use crate::imaging::{Channels, MapShape, SampleKind, Siting, Transfer};
-use crate::mapping::{Axes, Layout, MappingId};
+use crate::mapping::{Axes, Frame, Layout, MappingId};
 
 /// How a value between texels is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -65,12 +65,15 @@ pub struct Conversion {
     pub size: [u32; 2],
     /// How the charts are unfolded.
     pub layout: Layout,
-    /// Bit c is set when chart c is wanted; the others are left out, or black in a common picture.
+    /// Bit c is set when chart c is wanted; the others are left out, or black in a common picture. With a frame: the picture
+    /// with that chart's label.
     pub charts: u32,
     /// Rows of the rotation: the light that comes from `d` in the result came from `rotation * d` in the source's world.
     pub rotation: [[f64; 3]; 3],
     /// Axes of the result's own directions in the world.
     pub world_from_map: Axes,
+    /// The program whose maps the result shall be like; takes the place of `world_from_map`.
+    pub frame: Option<&'static Frame>,
     /// Where the result's samples sit.
     pub siting: Siting,
     /// How values between texels are found; `None`: [`Filter::Area`] when it minifies, else [`Filter::Bicubic`].
@@ -119,6 +122,7 @@ impl Conversion {
             charts: u32::MAX,
             rotation: Self::UNTURNED,
             world_from_map: Axes::IDENTITY,
+            frame: None,
             siting: Siting::Centre,
             filter: None,
             supersample: 1,
@@ -154,7 +158,7 @@ impl Conversion {
                 pictures += 1;
             }
         }
-        Ok(MapShape {
+        let mut shape = MapShape {
             mapping: self.mapping,
             size: self.size,
             charts,
@@ -163,6 +167,11 @@ impl Conversion {
             channels: self.channels,
             samples: self.samples,
             transfer: self.transfer,
-        })
+        };
+        if let Some(frame) = self.frame {
+            shape.apply_frame(frame, self.layout)?;
+            shape.siting = self.siting;
+        }
+        Ok(shape)
     }
 }

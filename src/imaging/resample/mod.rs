@@ -22,10 +22,12 @@
 mod area;
 mod conversion;
 mod encode;
+mod equal;
 mod filter;
 mod general;
 mod geometry;
 mod grid;
+mod levels;
 mod lookups;
 mod plan;
 mod report;
@@ -34,6 +36,8 @@ mod strips;
 mod texels;
 
 pub use conversion::{Conversion, Filter, FilteredIn, Isa};
+pub use equal::{chart_size, equal_height, rotation_of_viewer};
+pub use levels::levels;
 pub use plan::{MOST_SIDE, Plan};
 pub use report::{Report, Skipped};
 
@@ -53,6 +57,9 @@ pub enum ResampleError {
         /// The layout's name.
         layout: &'static str,
     },
+    /// The program has no such maps.
+    #[error(transparent)]
+    Frame(#[from] crate::mapping::FrameError),
     /// Too many texels.
     #[error(
         "{width} x {height} texels a chart are too many, the limit is {most} a side; choose a smaller size"

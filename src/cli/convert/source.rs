@@ -1,0 +1,72 @@
+//! Maps from files or from the program itself.
+
+use std::path::PathBuf;
+
+use super::error::ConvertError;
+use super::names::Name;
+use crate::imaging::{
+    Channels, Environment, EnvironmentMap, OpenHints, Progress, Raster, Samples, Stored, Transfer,
+    computed, open_map,
+};
+use crate::mapping::{Layout, MappingId};
+
+/// A map, and how its file stored it.
+pub(super) struct Source {
+    pub map: EnvironmentMap,
+    pub stored: Stored,
+    /// What the user should know, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// The map of a file, or of six.
+pub(super) fn open(path: PathBuf, hints: &OpenHints, progress: &Progress) -> Result<Source, ConvertError> {
+    let opened = open_map(&[path], hints, progress)?;
+    Ok(Source {
+        map: opened.map,
+        stored: opened.stored,
+        notes: opened.notes,
+    })
+}
+
+/// What the program has with it; computed pictures have `rows`, or their usual size.
+pub(super) fn built_in(
+    environment: &Environment,
+    rows: Option<u32>,
+    progress: &Progress,
+) -> Result<Source, ConvertError> {
+    // Small ones are computed larger than needed: their lines are drawn for the usual size.
+    let rows = rows.unwrap_or(0).clamp(computed::DEFAULT_HEIGHT, crate::imaging::load::MOST_HEIGHT);
+    let image = environment.image_at(rows, progress)?.image;
+    let size = [image.width(), image.height()];
+    let samples = Samples::F32(image.into_pixels().into_flattened());
+    let shaped = |error| ConvertError::Shape(error, environment.id());
+    let raster = Raster::new(size, Channels::Rgb, Transfer::Linear, samples);
+    let rasters = raster.into_iter().collect();
+    Ok(Source {
+        map: EnvironmentMap::from_layout(MappingId::Latlong, Layout::Single, rasters).map_err(shaped)?,
+        // Photographs are stored so, and no pattern needs more.
+        stored: Stored::Half,
+        notes: Vec::new(),
+    })
+}
+
+/// The numbers of the frames that a name stands for.
+pub(super) fn frames(name: &Name) -> Result<Vec<u64>, ConvertError> {
+    /// How six files name their first face.
+    const FIRST_FACES: [&str; 6] = ["px", "posx", "right", "+x", "r", "R"];
+    let shown = || name.path().display().to_string();
+    let frames = |name: &Name| name.frames().map_err(|error| ConvertError::Folder(error, shown()));
+    if !name.has_face() {
+        return frames(name).and_then(|frames| some(frames).ok_or_else(|| ConvertError::NoFrames(shown())));
+    }
+    for face in FIRST_FACES {
+        if let Some(frames) = some(frames(&name.of_face(face))?) {
+            return Ok(frames);
+        }
+    }
+    Err(ConvertError::NoFrames(shown()))
+}
+
+fn some(list: Vec<u64>) -> Option<Vec<u64>> {
+    (!list.is_empty()).then_some(list)
+}

@@ -1,0 +1,550 @@
+//! What `sixfold convert` is to do: its options, checked against each other before anything is read.
+
+use std::path::PathBuf;
+
+use super::error::ConvertError;
+use super::names::{Name, face_name};
+use super::options::ConvertOptions;
+use super::raw::RawFrames;
+use crate::imaging::load::Format;
+use crate::imaging::resample::{Conversion, Filter, chart_size, equal_height, rotation_of_viewer};
+use crate::imaging::save::{SaveOptions, format_of_path};
+use crate::imaging::{
+    Channels, Environment, EnvmapKind, MapShape, OpenHints, SampleKind, Siting, Stored, Transfer,
+    atomic,
+};
+use crate::mapping::{Frame, Layout, MappingId};
+
+/// A command line that makes sense.
+#[derive(Debug)]
+pub(super) struct Task {
+    pub input: Input,
+    pub output: Output,
+    options: ConvertOptions,
+    to_frame: Option<&'static Frame>,
+}
+
+/// Where maps come from.
+#[derive(Debug)]
+pub(super) enum Input {
+    /// A file, six files or the frames of a film.
+    Files { name: Name, hints: OpenHints },
+    /// What the program has with it.
+    BuiltIn(Environment),
+    /// Standard input.
+    Raw {
+        frames: RawFrames,
+        mapping: MappingId,
+        hints: OpenHints,
+    },
+}
+
+/// Where they go.
+#[derive(Debug)]
+pub(super) enum Output {
+    Files(FilesOut),
+    /// Standard output.
+    Raw,
+    /// Nowhere: the input is only looked at.
+    None,
+}
+
+/// Files of one format.
+#[derive(Debug)]
+pub(super) struct FilesOut {
+    pub name: Name,
+    pub format: Format,
+    /// Names for `%f`, one for each chart; empty: the usual ones.
+    face_names: Vec<String>,
+    pub force: bool,
+}
+
+/// How a map is made and stored.
+#[derive(Debug)]
+pub(super) struct Target {
+    pub conversion: Conversion,
+    pub save: SaveOptions,
+}
+
+impl Task {
+    /// Checks the options.
+    ///
+    /// # Errors
+    /// [`ConvertError::Usage`] for what makes no sense, other errors for names that cannot be used.
+    pub fn new(options: &ConvertOptions) -> Result<Self, ConvertError> {
+        check_together(options)?;
+        let input = input(options)?;
+        let output = match &options.output {
+            None => Output::None,
+            Some(_) if matches!(input, Input::Raw { .. }) => Output::Raw,
+            Some(path) => Output::Files(files_out(options, path.clone())?),
+        };
+        let to_frame = options.to_frame.as_deref().map(frame).transpose()?;
+        let task = Self {
+            input,
+            output,
+            options: options.clone(),
+            to_frame,
+        };
+        task.check_numbers()?;
+        // What is known already is checked before a large file is read.
+        if let (Some(mapping), false) = (options.to.or(options.from), options.inspect) {
+            task.layout(mapping)?;
+            task.charts(mapping)?;
+        }
+        Ok(task)
+    }
+
+    /// A film goes to a film.
+    fn check_numbers(&self) -> Result<(), ConvertError> {
+        let comes = matches!(&self.input, Input::Files { name, .. } if name.has_number());
+        let (Output::Files(files), Some(path)) = (&self.output, &self.options.output) else {
+            return match comes && matches!(self.output, Output::None) {
+                true => refuse("--inspect looks at one map; name one frame"),
+                false => Ok(()),
+            };
+        };
+        match (comes, files.name.has_number()) {
+            (true, false) => refuse(format!(
+                "IN stands for many frames; put %04d into OUT too: {}",
+                path.display()
+            )),
+            (false, true) => refuse(format!(
+                "OUT stands for many frames, IN does not; leave the number out: {}",
+                path.display()
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// How many times the resampling is timed.
+    pub fn repeat(&self) -> u32 {
+        self.options.repeat.unwrap_or(1)
+    }
+
+    /// Whether a report is wanted on standard output.
+    pub fn json(&self) -> bool {
+        self.options.json
+    }
+
+    /// Whether all levels are wanted.
+    pub fn mips(&self) -> bool {
+        self.options.mips
+    }
+
+    /// Texels around the horizon that the options ask for; `None`: as many as the source has.
+    pub fn rows_of_latlong(&self) -> Option<u32> {
+        let mapping = self.options.to.unwrap_or(MappingId::Latlong);
+        let size = chart_size(mapping, self.options.size?);
+        let shape = Conversion::new(mapping, size, &PLAIN_SHAPE);
+        let shape = shape.target_shape(&PLAIN_SHAPE).ok()?;
+        Some(equal_height(MappingId::Latlong, &shape))
+    }
+
+    /// How a map of this shape is converted.
+    ///
+    /// # Errors
+    /// When an option does not fit the mapping.
+    pub fn target(&self, source: &MapShape, stored_in: Stored) -> Result<Target, ConvertError> {
+        let options = &self.options;
+        let mapping = options.to.unwrap_or(source.mapping);
+        let height = options.size.unwrap_or_else(|| equal_height(mapping, source));
+        let layout = self.layout(mapping)?;
+        let mut conversion = Conversion::new(mapping, chart_size(mapping, height), source);
+        conversion.layout = layout;
+        conversion.charts = self.charts(mapping)?;
+        conversion.rotation = rotation_of_viewer(options.rotate.unwrap_or_default());
+        conversion.frame = match self.to_frame {
+            None if options.envmap => Some(frame("openexr")?),
+            frame => frame,
+        };
+        conversion.siting = match (options.samples, conversion.frame) {
+            (Some(at), _) => at.into(),
+            (None, Some(frame)) if frame.is_edge_sited => Siting::Edge,
+            _ => Siting::Centre,
+        };
+        conversion.filter = match (options.filter, options.supersample) {
+            (Some(filter), _) => Some(filter.0),
+            // Places within a texel take the place of its footprint.
+            (None, Some(_)) => Some(Filter::Bicubic),
+            (None, None) => None,
+        };
+        conversion.supersample = options.supersample.unwrap_or(1);
+        conversion.filtered_in = options.transfer.into();
+        conversion.exposure_ev = options.exposure;
+        conversion.threads = options.threads.unwrap_or(0) as usize;
+        conversion.isa = options.isa.map(super::options::IsaName::isa);
+        let mut save = SaveOptions {
+            zstd: options.zstd,
+            envmap: self.envmap(mapping, layout)?,
+            ..SaveOptions::default()
+        };
+        if let Some(quality) = options.quality {
+            save.jpeg_quality = quality;
+        }
+        if let Output::Files(files) = &self.output {
+            let stored = self.stored(files.format, stored_in)?;
+            save.stored = Some(stored);
+            conversion.samples = stored.kind();
+            conversion.transfer = match stored.kind() {
+                SampleKind::F32 => Transfer::Linear,
+                SampleKind::U8 | SampleKind::U16 => Transfer::Srgb,
+            };
+            if matches!(files.format, Format::Hdr | Format::Jpeg) || stored == Stored::Rgb9e5 {
+                conversion.channels = Channels::Rgb;
+            }
+        }
+        if options.dither && conversion.samples == SampleKind::F32 {
+            return refuse("floating numbers have no steps that noise could hide; leave --dither out");
+        }
+        conversion.dither = options.dither;
+        Ok(Target { conversion, save })
+    }
+
+    /// How the charts of the result lie.
+    fn layout(&self, mapping: MappingId) -> Result<Layout, ConvertError> {
+        let files = match &self.output {
+            Output::Files(files) => Some(files),
+            _ => None,
+        };
+        let has_face = files.is_some_and(|files| files.name.has_face());
+        let holds_faces = files.is_some_and(|files| files.format.is_container());
+        let count = mapping.info().chart_count();
+        if has_face && count == 1 {
+            return refuse(format!(
+                "`{mapping}` has one chart; leave %f out of the name"
+            ));
+        }
+        let Some(word) = self.options.layout.as_deref() else {
+            return Ok(match self.to_frame.and_then(|frame| frame.cube) {
+                _ if has_face || (holds_faces && count == 6) => Layout::Faces,
+                Some(cube) if count == 6 && cube.layout != Layout::Faces => cube.layout,
+                _ if count == 6 && self.options.envmap => Layout::Column,
+                _ => mapping.info().layout,
+            });
+        };
+        let layout = layout(word, mapping)?;
+        match (layout == Layout::Faces, files) {
+            (true, None) => refuse("a raw frame is one picture; choose another --layout than faces"),
+            (false, Some(_)) if has_face => refuse(format!(
+                "%f stands for a file of each face, which `{word}` is not; leave --layout or %f out"
+            )),
+            (false, Some(files)) if holds_faces && count == 6 => refuse(format!(
+                "{} holds six faces by itself; leave --layout out",
+                files.format.name()
+            )),
+            (true, Some(_)) if !has_face && count > 1 && !(holds_faces && count == 6) => refuse(
+                "`faces` is a file for each face; put %f where its name shall stand in OUT",
+            ),
+            _ => Ok(layout),
+        }
+    }
+
+    /// The charts that are wanted, a bit each.
+    fn charts(&self, mapping: MappingId) -> Result<u32, ConvertError> {
+        let names = mapping.info().charts;
+        if let Output::Files(files) = &self.output
+            && !files.face_names.is_empty()
+            && files.face_names.len() != names.len()
+        {
+            return refuse(format!(
+                "{} names for the {} charts of `{mapping}`; --face-names takes one for each: {}",
+                files.face_names.len(),
+                names.len(),
+                names.join(",")
+            ));
+        }
+        if self.options.faces.is_empty() {
+            return Ok(u32::MAX);
+        }
+        let mut charts = 0;
+        for wanted in &self.options.faces {
+            let chart = names.iter().position(|name| name == wanted);
+            let chart = chart.ok_or_else(|| {
+                ConvertError::usage(format!(
+                    "`{mapping}` has no chart `{wanted}`; it has: {}",
+                    names.join(",")
+                ))
+            })?;
+            charts |= 1 << chart;
+        }
+        Ok(charts)
+    }
+
+    /// OpenEXR's attribute.
+    fn envmap(&self, mapping: MappingId, layout: Layout) -> Result<Option<EnvmapKind>, ConvertError> {
+        match (self.options.envmap, mapping, layout) {
+            (false, ..) => Ok(None),
+            (true, MappingId::Latlong, _) => Ok(Some(EnvmapKind::Latlong)),
+            (true, MappingId::Cube, Layout::Column) => Ok(Some(EnvmapKind::Cube)),
+            _ => refuse("--envmap marks a latlong, or a cube in a column; choose --to latlong, or --to cube --layout column"),
+        }
+    }
+
+    /// How samples are stored: as exactly as they came, as far as the format can.
+    fn stored(&self, format: Format, source: Stored) -> Result<Stored, ConvertError> {
+        use Stored::{F32, Half, Rgb9e5, Rgbe, U8, U16};
+        let possible: &[Stored] = match format {
+            Format::Png => &[U8, U16],
+            Format::Jpeg => &[U8],
+            Format::Hdr => &[Rgbe],
+            Format::Exr => &[Half, F32],
+            Format::Ktx2 | Format::Dds => &[U8, Half, F32, Rgb9e5],
+        };
+        if let Some(depth) = self.options.depth {
+            let stored = depth.stored();
+            return if possible.contains(&stored) {
+                Ok(stored)
+            } else {
+                refuse(format!(
+                    "{} does not store samples so; leave --depth out, or choose {}",
+                    format.name(),
+                    match format {
+                        Format::Png => "8 or 16",
+                        Format::Jpeg => "8",
+                        Format::Hdr => "another format",
+                        Format::Exr => "half or float",
+                        Format::Ktx2 | Format::Dds => "8, half, float or rgb9e5",
+                    }
+                ))
+            };
+        }
+        if possible.contains(&source) {
+            return Ok(source);
+        }
+        // The eight bits of a Radiance mantissa and of a code fit into a half's eleven; sixteen bits do not.
+        let wished: &[Stored] = match source {
+            U8 | Rgbe | Rgb9e5 | Half => &[Half, U16],
+            U16 | F32 => &[F32, U16],
+        };
+        let best = wished.iter().find(|stored| possible.contains(stored));
+        Ok(*best.unwrap_or(&possible[0]))
+    }
+}
+
+impl FilesOut {
+    /// The files of a frame, one for each picture of the conversion.
+    pub fn paths(&self, conversion: &Conversion, frame: u64) -> Vec<PathBuf> {
+        if !self.name.has_face() {
+            return vec![self.name.file("", frame)];
+        }
+        let charts = conversion.mapping.info().charts.iter().enumerate();
+        charts
+            .filter(|(chart, _)| conversion.charts & (1 << chart) != 0)
+            .map(|(chart, name)| match self.face_names.get(chart) {
+                Some(name) => self.name.file(name, frame),
+                None => self.name.file(&face_name(name), frame),
+            })
+            .collect()
+    }
+
+    /// Fails when a file may not be written, before the work whose result could not be kept.
+    ///
+    /// # Errors
+    /// As [`atomic::check_name`].
+    pub fn check(&self, paths: &[PathBuf]) -> Result<(), ConvertError> {
+        for path in paths {
+            atomic::check_name(path, self.force)?;
+        }
+        Ok(())
+    }
+}
+
+/// The smallest map; stands in where a shape is needed for its mapping alone.
+const PLAIN_SHAPE: MapShape = MapShape {
+    mapping: MappingId::Latlong,
+    size: [2, 1],
+    charts: Vec::new(),
+    world_from_map: crate::mapping::Axes::IDENTITY,
+    siting: Siting::Centre,
+    channels: Channels::Rgb,
+    samples: SampleKind::F32,
+    transfer: Transfer::Linear,
+};
+
+fn refuse<T>(line: impl Into<String>) -> Result<T, ConvertError> {
+    Err(ConvertError::Usage(line.into()))
+}
+
+fn frame(id: &str) -> Result<&'static Frame, ConvertError> {
+    Frame::from_id(id).map_err(|error| ConvertError::usage(error.to_string()))
+}
+
+fn layout(word: &str, mapping: MappingId) -> Result<Layout, ConvertError> {
+    let count = mapping.info().chart_count();
+    Layout::from_id(word, count).ok_or_else(|| {
+        let held = Layout::ALL.into_iter().filter(|layout| layout.holds(count));
+        let names: Vec<&str> = held.map(Layout::id).collect();
+        ConvertError::usage(format!(
+            "`{mapping}` has no layout `{word}`; it has: {}",
+            names.join(", ")
+        ))
+    })
+}
+
+/// What cannot be asked for at once, whatever the map is.
+fn check_together(options: &ConvertOptions) -> Result<(), ConvertError> {
+    let is_pipe = |path: &std::path::Path| path.as_os_str() == "-";
+    let pipes = [Some(&options.input), options.output.as_ref()].map(|p| p.is_some_and(|p| is_pipe(p)));
+    if options.raw.is_none() && pipes.contains(&true) {
+        return refuse("`-` needs --raw FORMAT WxH, which says what the frames in the pipe are");
+    }
+    if options.raw.is_some() && pipes != [true, true] {
+        return refuse("--raw reads standard input and writes standard output; give `- -` for IN and OUT");
+    }
+    if options.raw.is_some() && options.from.is_none() {
+        return refuse("a raw frame does not tell what map it is; name it with --from MAP");
+    }
+    if options.from_frame.is_some() && options.arrange.is_some() {
+        return refuse("--from-frame and --arrange both say which face is which; leave one out");
+    }
+    if options.to_frame.is_some() && options.envmap && options.to_frame.as_deref() != Some("openexr") {
+        return refuse("--envmap promises OpenEXR's axes; leave --to-frame out");
+    }
+    let is_area = options.filter.is_some_and(|filter| filter.0 == Filter::Area);
+    if is_area && options.supersample.is_some_and(|count| count > 1) {
+        return refuse("`area` covers the whole texel already; leave --supersample out");
+    }
+    let shapes_output = [
+        (options.to.is_some(), "--to"),
+        (options.size.is_some(), "--size"),
+        (options.layout.is_some(), "--layout"),
+        (!options.faces.is_empty(), "--faces"),
+        (options.to_frame.is_some(), "--to-frame"),
+        (options.rotate.is_some(), "--rotate"),
+        (options.samples.is_some(), "--samples"),
+        (options.filter.is_some(), "--filter"),
+        (options.supersample.is_some(), "--supersample"),
+        (options.repeat.is_some(), "--repeat"),
+        (options.isa.is_some(), "--isa"),
+        (options.dither, "--dither"),
+    ];
+    let files_only = [
+        (!options.face_names.is_empty(), "--face-names"),
+        (options.depth.is_some(), "--depth"),
+        (options.mips, "--mips"),
+        (options.zstd, "--zstd"),
+        (options.quality.is_some(), "--quality"),
+        (options.envmap, "--envmap"),
+        (options.force, "--force"),
+        (options.json, "--json"),
+    ];
+    let first = |list: &[(bool, &'static str)]| list.iter().find(|(given, _)| *given).map(|(_, name)| *name);
+    if options.inspect {
+        let useless = first(&shapes_output).or_else(|| first(&files_only));
+        return useless.map_or(Ok(()), |name| {
+            refuse(format!("--inspect converts nothing; leave {name} out"))
+        });
+    }
+    if options.raw.is_some() {
+        let repeat = options.repeat.map(|_| "--repeat");
+        return first(&files_only).or(repeat).map_or(Ok(()), |name| {
+            refuse(format!("a pipe of raw frames has no use for {name}; leave it out"))
+        });
+    }
+    Ok(())
+}
+
+fn input(options: &ConvertOptions) -> Result<Input, ConvertError> {
+    let arrange = options.arrange.as_deref().map(str::parse).transpose();
+    let mut hints = OpenHints {
+        mapping: options.from,
+        layout: None,
+        frame: options.from_frame.as_deref().map(frame).transpose()?,
+        arrange: arrange.map_err(|error| ConvertError::usage(format!("{error}")))?,
+        siting: options.from_samples.map(Siting::from),
+        transfer: None,
+    };
+    if let Some(word) = options.from_layout.as_deref() {
+        let Some(mapping) = options.from else {
+            return refuse("--from-layout needs the mapping too; name it with --from MAP");
+        };
+        hints.layout = Some(layout(word, mapping)?);
+    }
+    if let (Some(mapping), Some(_)) = (options.from, &hints.arrange)
+        && mapping.info().chart_count() != 6
+    {
+        return refuse(format!(
+            "--arrange is for six faces, which `{mapping}` has not; leave it out"
+        ));
+    }
+    if let (Some(words), Some(mapping)) = (&options.raw, options.from) {
+        let frames = RawFrames::parse(words).map_err(ConvertError::Usage)?;
+        if hints.layout == Some(Layout::Faces) {
+            return refuse("a raw frame is one picture; choose another --from-layout than faces");
+        }
+        return Ok(Input::Raw {
+            frames,
+            mapping,
+            hints,
+        });
+    }
+    // A file of that name comes first.
+    if let Some(environment) = built_in(options) {
+        let said = [
+            (options.from.is_some_and(|from| from != MappingId::Latlong), "--from"),
+            (options.from_frame.is_some(), "--from-frame"),
+            (options.arrange.is_some(), "--arrange"),
+            (options.from_samples.is_some(), "--from-samples"),
+        ];
+        return match said.iter().find(|(given, _)| *given) {
+            Some((_, name)) => refuse(format!(
+                "`{}` is built in, a latlong in our axes; leave {name} out",
+                environment.id()
+            )),
+            None => Ok(Input::BuiltIn(environment)),
+        };
+    }
+    Ok(Input::Files {
+        name: Name::new(&options.input),
+        hints,
+    })
+}
+
+/// The built-in environment that IN names, when no file has its name.
+fn built_in(options: &ConvertOptions) -> Option<Environment> {
+    let id = options.input.to_str().filter(|_| !options.input.exists())?;
+    let mut all = Environment::ALL_BUILT_IN.into_iter();
+    all.find(|environment| environment.id() == id)
+}
+
+fn files_out(options: &ConvertOptions, path: PathBuf) -> Result<FilesOut, ConvertError> {
+    let format = format_of_path(&path).map_err(|error| ConvertError::usage(error.to_string()))?;
+    let name = Name::new(&path);
+    let misplaced = [
+        (options.mips && !format.is_container(), "--mips", ".ktx2 or .dds"),
+        (options.zstd && format != Format::Ktx2, "--zstd", ".ktx2"),
+        (options.quality.is_some() && format != Format::Jpeg, "--quality", ".jpg"),
+        (options.envmap && format != Format::Exr, "--envmap", ".exr"),
+    ];
+    if let Some((_, option, ending)) = misplaced.iter().find(|(is_so, ..)| *is_so) {
+        return refuse(format!(
+            "{option} is for {ending}, not for {}; leave it out",
+            format.name()
+        ));
+    }
+    if !options.face_names.is_empty() && !name.has_face() {
+        return refuse("--face-names are put in for %f, which is not in OUT");
+    }
+    let face_names = options.face_names.clone();
+    let usable = |name: &String| !name.is_empty() && !name.contains(['/', '\\']);
+    let doubled = |(at, name): (usize, &String)| face_names[..at].contains(name);
+    if !face_names.iter().all(usable) || face_names.iter().enumerate().any(doubled) {
+        return refuse("--face-names must differ, and none may be empty or hold a slash");
+    }
+    if !options.faces.is_empty() && format.is_container() {
+        return refuse(format!(
+            "{} holds all faces or none; leave --faces out, or write one file a face",
+            format.name()
+        ));
+    }
+    if name.has_face() && format.is_container() {
+        return refuse(format!("{} holds six faces by itself; leave %f out", format.name()));
+    }
+    Ok(FilesOut {
+        name,
+        format,
+        face_names,
+        force: options.force,
+    })
+}

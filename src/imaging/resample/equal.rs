@@ -1,0 +1,146 @@
+//! The size at which a map resolves as much as another, and the rotation of a viewer.
+
+use crate::imaging::MapShape;
+use crate::mapping::MappingId;
+use crate::math::Vec3;
+
+/// Texels that a horizontal circle of directions crosses: once around, whatever part of it the mapping holds.
+///
+/// The circle is followed through the charts in small steps; the jumps over seams do not count.
+fn texels_around(mapping: MappingId, size: [f64; 2]) -> f64 {
+    /// Steps around: many enough that a step never covers a tenth of a chart, where a jump begins.
+    const STEPS: u32 = 4096;
+    const JUMP: f64 = 0.1;
+    let point = |step: u32| {
+        // Off the seams, which lie at round angles.
+        let angle = (f64::from(step) + 0.3) / f64::from(STEPS) * std::f64::consts::TAU;
+        let dir = Vec3::new(angle.sin(), 0.0, angle.cos());
+        let held = mapping.info().coverage.contains(dir.to_f64());
+        mapping.forward(dir).filter(|_| held)
+    };
+    let (mut texels, mut steps) = (0.0, 0_u32);
+    for step in 0..STEPS {
+        let (Some(from), Some(to)) = (point(step), point(step + 1)) else {
+            continue;
+        };
+        let (du, dv) = (to.u - from.u, to.v - from.v);
+        if from.chart == to.chart && du.abs() < JUMP && dv.abs() < JUMP {
+            texels += (du * size[0]).hypot(dv * size[1]);
+            steps += 1;
+        }
+    }
+    texels * f64::from(STEPS) / f64::from(steps.max(1))
+}
+
+/// Texels of a chart of `height` rows, [width, height]: as wide as makes its texels square where the mapping is least
+/// distorted.
+pub fn chart_size(mapping: MappingId, height: u32) -> [u32; 2] {
+    let width = (f64::from(height) * mapping.info().aspect).round() as u32;
+    [width.max(1), height]
+}
+
+/// The rows of a chart at which a map has as many texels around the horizon as `source`, at least 1.
+///
+/// A latlong of 4096 x 2048 has 4096 around; so have six faces of 1024.
+pub fn equal_height(mapping: MappingId, source: &MapShape) -> u32 {
+    let source = texels_around(source.mapping, source.size.map(f64::from));
+    let of_one_row = texels_around(mapping, [mapping.info().aspect, 1.0]);
+    // `as` saturates.
+    ((source / of_one_row).round() as u32).max(1)
+}
+
+/// The rotation of a conversion ([`super::Conversion::rotation`]) that turns the viewer: `yaw` to the right, then `pitch` up,
+/// then `roll` clockwise, in degrees, each about the axes that the turn before has left. The middle of the result shows what
+/// was `yaw` to the right of the source's, so the picture moves to the left.
+///
+/// Multiples of 90 degrees are exact.
+pub fn rotation_of_viewer([yaw, pitch, roll]: [f64; 3]) -> [[f64; 3]; 3] {
+    let [(sy, cy), (sp, cp), (sr, cr)] = [yaw, pitch, roll].map(sin_cos_deg);
+    // Columns are where right, up and ahead of the turned viewer point.
+    let yaw = [[cy, 0.0, sy], [0.0, 1.0, 0.0], [-sy, 0.0, cy]];
+    let pitch = [[1.0, 0.0, 0.0], [0.0, cp, sp], [0.0, -sp, cp]];
+    let roll = [[cr, sr, 0.0], [-sr, cr, 0.0], [0.0, 0.0, 1.0]];
+    product(yaw, product(pitch, roll))
+}
+
+fn product(a: [[f64; 3]; 3], b: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    // Adding 0 makes every zero a plain one, so that no turn equals no rotation.
+    let cell = |i: usize, j: usize| (0..3).map(|k| a[i][k] * b[k][j]).sum::<f64>() + 0.0;
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| cell(i, j)))
+}
+
+fn sin_cos_deg(degrees: f64) -> (f64, f64) {
+    let quarter = (degrees / 90.0).round();
+    // Both exact: the quotient is whole, and so is its product.
+    let (sin, cos) = (degrees - 90.0 * quarter).to_radians().sin_cos();
+    match quarter.rem_euclid(4.0) as u8 {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::imaging::resample::Conversion;
+    use crate::imaging::{Channels, EnvironmentMap, Raster, Samples, Transfer};
+
+    fn shape(mapping: MappingId, size: [u32; 2]) -> MapShape {
+        let [columns, rows] = mapping.info().layout.grid();
+        let picture = [size[0] * columns, size[1] * rows];
+        let samples = Samples::U8(vec![0; (picture[0] * picture[1] * 3) as usize]);
+        let raster = Raster::new(picture, Channels::Rgb, Transfer::Srgb, samples).unwrap();
+        let map = EnvironmentMap::from_layout(mapping, mapping.info().layout, vec![raster]);
+        map.unwrap().shape().clone()
+    }
+
+    #[test]
+    fn maps_of_equal_height_have_as_many_texels_around() {
+        let latlong = shape(MappingId::Latlong, [512, 256]);
+        // Around the horizon: four faces; two discs; the diagonals of a square folded at the poles; a disc across.
+        for (mapping, height) in [
+            (MappingId::Latlong, 256),
+            (MappingId::Cube, 128),
+            (MappingId::Ccm, 128),
+            (MappingId::Eac, 128),
+            (MappingId::Paraboloid, 256),
+            (MappingId::Angular, 512),
+            (MappingId::Sphere, 512),
+            (MappingId::Matcap, 256),
+            (MappingId::CylindricalEqualArea, 163),
+        ] {
+            assert_eq!(equal_height(mapping, &latlong), height, "{mapping}");
+        }
+        for mapping in MappingId::ALL {
+            let there = equal_height(*mapping, &latlong);
+            let back = equal_height(
+                MappingId::Latlong,
+                &shape(*mapping, chart_size(*mapping, there)),
+            );
+            assert!(back.abs_diff(256) <= 1, "{mapping}: {there}, back {back}");
+        }
+    }
+
+    #[test]
+    fn the_viewer_turns_right_then_up_then_clockwise() {
+        let apply = |angles: [f64; 3], v: [f64; 3]| {
+            rotation_of_viewer(angles).map(|row| row.iter().zip(v).map(|(a, b)| a * b).sum::<f64>())
+        };
+        let (right, up, ahead) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+        assert_eq!(apply([90.0, 0.0, 0.0], ahead), right);
+        assert_eq!(apply([0.0, 90.0, 0.0], ahead), up);
+        assert_eq!(apply([0.0, 0.0, 90.0], up), right);
+        // After a yaw the pitch goes up from there.
+        let both = apply([90.0, 45.0, 0.0], ahead);
+        assert!((both[0] - 0.5_f64.sqrt()).abs() < 1e-15 && (both[1] - both[0]).abs() < 1e-15);
+        for whole in [0.0, 360.0, -720.0] {
+            assert_eq!(
+                rotation_of_viewer([whole, 0.0, -whole]),
+                Conversion::UNTURNED
+            );
+        }
+        assert_ne!(rotation_of_viewer([1e-9, 0.0, 0.0]), Conversion::UNTURNED);
+    }
+}
