@@ -1,12 +1,24 @@
-//! Environments as pictures: reading, checking, computing, writing.
+//! Environments as pictures: reading, checking, computing, converting, writing.
 //!
 //! - [`Environment`]: what can be shown, and [`Environment::image`], which makes its picture;
-//! - [`load`]: a latlong picture from a file, refused before any allocation when it declares too much;
+//! - [`load`]: pictures and containers from files, refused before any allocation when they declare too much;
+//! - [`Raster`]: a picture as a file holds it, every bit kept; [`Container`]: faces and levels of such;
+//! - [`save`]: both into files, row by row;
 //! - [`Image`]: RGB in linear light; [`sanitize`] makes every value finite and remembers what it replaced;
+//! - [`EnvironmentMap`] and [`resample`]: a map as it lies in memory, and from one to any other;
 //! - [`ball`]: pictures of a lit ball, for sphere-map styles;
 //! - [`computed`]: pictures that show where every direction went;
 //! - [`open_regular`]: a file, and nothing that would wait for ever;
 //! - [`png_out`] and [`atomic`]: pictures to files, whole or not at all.
+//!
+//! | format | read as | written |
+//! |---|---|---|
+//! | Radiance HDR | f32 RGB; both codings, all orientations along x | the newer runs, rounded to nearest; what was read comes back |
+//! | OpenEXR | f32 RGB(A), halves exactly; every compression, lines or tiles, `envmap` | half or f32, without loss, `envmap` |
+//! | PNG | codes of 8 or 16 bits, with or without opacity | the same, marked as sRGB |
+//! | JPEG | codes of 8 bits | the same, by quality |
+//! | KTX2 | 8 bits, half, f32, RGB9E5; cube maps and pictures, levels; plain or Zstandard | the same |
+//! | DDS | the same, plain; also with the older header alone | the same, with the newer header |
 
 pub mod atomic;
 pub mod ball;
