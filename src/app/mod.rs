@@ -12,6 +12,8 @@ mod controls;
 mod curves;
 mod dialogs;
 pub mod explorer;
+pub mod export;
+mod export_dialog;
 pub mod figures;
 pub mod files;
 mod frame;

@@ -80,8 +80,8 @@ struct Ring {
 impl Ring {
     /// Where the knob lies when the ring's angle is `degrees`, the others as they are; `None` behind the eye.
     fn place(self, degrees: f64) -> Option<Pos2> {
-        // What turns with it and has no angle of its own on this ring: ahead for yaw and pitch, up for roll.
-        let marker = if self.index == 2 { DVec3::Y } else { DVec3::Z };
+        // A direction that its angle moves, another for each ring, so that no two knobs lie on each other untouched.
+        let marker = [DVec3::Z, DVec3::Y, DVec3::X][self.index];
         let mut angles = self.rotation.degrees();
         angles[self.index] = degrees;
         angles[..self.index].fill(0.0);

@@ -6,6 +6,7 @@
 //! Faces are chosen by comparing the raw components: comparisons are exact in every language and on every adapter, while
 //! rounded dot products leave holes.
 
+use super::chart::to_signed;
 use super::{Layout, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
