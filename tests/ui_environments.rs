@@ -1,6 +1,10 @@
 //! Environments in the window: turned, exported for other programs.
 
 #![cfg(feature = "explorer")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "helpers of tests say what they expect by unwrapping"
+)]
 
 mod window_kit;
 
