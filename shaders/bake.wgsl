@@ -8,6 +8,8 @@ struct Bake {
     chart: vec4f,
     // Texels of the environment in a radian, its last level.
     environment: vec4f,
+    // Columns: from a direction of the world to the one in the environment's picture.
+    environment_from_world: array<vec4f, 3>,
 }
 
 @group(0) @binding(0) var<uniform> bake: Bake;
@@ -22,7 +24,9 @@ fn dir_at(texels: vec2f) -> vec3f {
 }
 
 // The environment is a latlong picture; its sampler repeats sideways, so the date line is no border.
-fn environment_light(dir: vec3f, level: f32) -> vec3f {
+fn environment_light(world: vec3f, level: f32) -> vec3f {
+    let columns = bake.environment_from_world;
+    let dir = (columns[0] * world.x + columns[1] * world.y + columns[2] * world.z).xyz;
     let u = 0.5 + angle_of(dir.x, dir.z) * (0.5 * FRAC_1_PI);
     let v = angle_of(hypotenuse(dir.x, dir.z), dir.y) * FRAC_1_PI;
     return textureSampleLevel(environment, environment_sampler, vec2f(u, v), level).rgb;

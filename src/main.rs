@@ -61,6 +61,7 @@ fn draw(options: &RenderOptions) -> Result<(), (u8, String)> {
             .map(|compare| Action::SetCompare(Some(compare))),
         options.object.map(Action::SetObject),
         environment.map(Action::SetEnvironment),
+        options.rotate.map(Action::SetRotation),
         options
             .material
             .clone()

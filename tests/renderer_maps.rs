@@ -6,9 +6,9 @@
 mod render;
 
 use render::*;
-use sixfold::gpu::MapPixels;
+use sixfold::gpu::{Frame, MapPixels, Renderer};
 use sixfold::mapping::{ChartPoint, MappingId};
-use sixfold::math::Vec3;
+use sixfold::math::{Rotation, Vec3};
 
 #[test]
 fn constant_light_stays_constant() {
@@ -78,6 +78,60 @@ fn every_texel_holds_the_light_of_its_direction() {
         assert!((1e-4..1.2e-3).contains(&worst), "{id}: {worst:e}");
         assert!(mirrored > 0.3, "{id}: control {mirrored}");
     }
+}
+
+/// Every texel of every mapping, baked from an environment that is turned.
+fn turned_texels(renderer: &mut Renderer, id: MappingId, rotation: Rotation) -> Vec<f32> {
+    let turned = Frame {
+        rotation,
+        ..frame(None, &[panel(id)])
+    };
+    renderer.draw(&turned).unwrap();
+    let charts = 0..id.info().chart_count();
+    let texels = charts.map(|chart| renderer.read_map(id, chart, 0).unwrap().rgb);
+    texels.flatten().flatten().collect()
+}
+
+#[test]
+fn a_turned_environment_is_seen_where_it_was_turned_to() {
+    let mut straight = renderer([1024, 512], direction_light);
+    // What is seen at d after a yaw of 90 degrees lies in the file at (z, y, -x) of d; so with the others.
+    type Seen = fn([f64; 3]) -> [f64; 3];
+    let turns: [([f64; 3], Seen); 4] = [
+        ([90.0, 0.0, 0.0], |[x, y, z]| [z, y, -x]),
+        ([0.0, 90.0, 0.0], |[x, y, z]| [x, z, -y]),
+        ([0.0, 0.0, 90.0], |[x, y, z]| [y, -x, z]),
+        ([90.0, 90.0, 0.0], |[x, y, z]| [-y, z, -x]),
+    ];
+    let mut worst = 0.0f64;
+    for (angles, source) in turns {
+        let mut wanted = renderer([1024, 512], |dir| direction_light(source(dir)));
+        // Every mapping has the same pass: each once, and the sense of each angle on one.
+        let all = if angles == [90.0, 90.0, 0.0] {
+            MappingId::ALL
+        } else {
+            &[MappingId::Cube]
+        };
+        for &id in all {
+            let off = |rotation: [f64; 3], straight: &mut Renderer, wanted: &mut Renderer| {
+                let rotation = Rotation::from_degrees(rotation);
+                let found = turned_texels(straight, id, rotation);
+                let wanted = turned_texels(wanted, id, Rotation::NONE);
+                let squares = found
+                    .iter()
+                    .zip(&wanted)
+                    .map(|(a, b)| f64::from(a - b).powi(2));
+                (squares.sum::<f64>() / found.len() as f64).sqrt()
+            };
+            let rms = off(angles, &mut straight, &mut wanted);
+            let other_way = off(angles.map(|a| -a), &mut straight, &mut wanted);
+            println!("{id} {angles:?}: off by {rms:.1e}, the other way round {other_way:.2}");
+            worst = worst.max(rms);
+            assert!(other_way > 0.1, "{id} {angles:?}: control {other_way}");
+        }
+    }
+    // A half float below 1 is off by 2.4e-4 at most; texels at a rim mix much of the sphere.
+    assert!((2e-4..1.5e-3).contains(&worst), "{worst:e}");
 }
 
 #[test]

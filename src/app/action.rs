@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::gpu::ToneCurve;
 use crate::imaging::Environment;
 use crate::mapping::{ChartPoint, MappingId};
-use crate::math::Vec3;
+use crate::math::{Rotation, Vec3};
 use crate::optics::Material;
 use crate::scene::Object;
 
@@ -21,6 +21,8 @@ use super::state::{
 pub enum Action {
     /// Show other surroundings.
     SetEnvironment(Environment),
+    /// Turn the surroundings.
+    SetRotation(Rotation),
     /// Look up another mapping; the inspector follows.
     SetMapping(MappingId),
     /// Put a second mapping right of the divider, or take it away.
@@ -100,6 +102,7 @@ impl Action {
         match self {
             Self::Orbit { .. } | Self::Zoom(_) => Some(("camera", None)),
             Self::SetDivider(_) => Some(("divider", None)),
+            Self::SetRotation(_) => Some(("rotation", None)),
             Self::SetExposure(_) => Some(("exposure", None)),
             Self::SetTexelBudget(_) => Some(("texels", None)),
             Self::SetDensity(_) => Some(("density", None)),
@@ -123,6 +126,7 @@ impl Action {
 pub fn apply(state: &mut AppState, action: Action) {
     match action {
         Action::SetEnvironment(environment) => state.environment = environment,
+        Action::SetRotation(rotation) => state.rotation = rotation.sanitized(),
         Action::SetMapping(mapping) => {
             state.mapping = mapping;
             state.inspector.mapping = mapping;

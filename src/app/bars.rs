@@ -24,6 +24,13 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
                 *dialog = Some(Dialog::Picture(PictureDialog::default()));
                 ui.close();
             }
+            if ui
+                .button("Export the environment …   Ctrl+Shift+E")
+                .clicked()
+            {
+                *dialog = Some(Dialog::Export(Box::default()));
+                ui.close();
+            }
             ui.separator();
             if ui.button("Quit   Ctrl+Q").clicked() {
                 model.push(Command::Quit);

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::action::Action;
 use super::dialogs::Dialog;
+use super::export::Export;
 use super::picture::PictureRequest;
 use crate::imaging::Environment;
 
@@ -33,6 +34,8 @@ pub enum Command {
     },
     /// Draw a picture in a job, for a file or the clipboard.
     MakePicture(PictureRequest),
+    /// Write the environment for another program, in a job.
+    Export(Box<Export>),
     /// Stop a running job.
     Cancel(u64),
     /// Take a message away.

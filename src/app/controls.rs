@@ -8,6 +8,7 @@ use super::dialogs::Dialog;
 use super::material_panel::material_ui;
 use super::model::Model;
 use super::state::{EXPOSURE_RANGE, TEXEL_BUDGET_RANGE};
+use super::turning::rotation_ui;
 use crate::gpu::ToneCurve;
 use crate::imaging::{Environment, short_name};
 use crate::mapping::MappingId;
@@ -127,6 +128,7 @@ fn scene_ui(ui: &mut Ui, model: &mut Model<'_>) {
     if let Some(text) = model.surroundings.and_then(|s| s.bad_texels().summary()) {
         ui.label(RichText::new(text).small().color(super::theme::TEXEL));
     }
+    rotation_ui(ui, model);
     object_ui(ui, model);
     if ui
         .button("Reset the view")

@@ -6,6 +6,8 @@ use egui::{ComboBox, DragValue, Modal, TextEdit, Ui};
 
 use super::action::Action;
 use super::command::Command;
+use super::export::Export;
+use super::export_dialog::export_ui;
 use super::model::Model;
 use super::picture::{Destination, MAX_SIDE, PictureRequest, What};
 use crate::mapping::MappingId;
@@ -23,6 +25,8 @@ pub enum Dialog {
     SaveScene(SaveDialog),
     /// What picture, how large, where to.
     Picture(PictureDialog),
+    /// The environment for another program.
+    Export(Box<Export>),
 }
 
 /// The fields of the dialog that saves the scene.
@@ -50,6 +54,7 @@ impl Dialog {
             Self::Open(path) | Self::OpenBall(path) => path,
             Self::SaveScene(fields) => &mut fields.path,
             Self::Picture(fields) => &mut fields.path,
+            Self::Export(export) => &mut export.path,
         }
     }
 
@@ -60,6 +65,7 @@ impl Dialog {
             Self::Open(_) | Self::OpenBall(_) => {}
             Self::SaveScene(fields) => fields.force = true,
             Self::Picture(fields) => fields.force = true,
+            Self::Export(export) => export.force = true,
         }
         self
     }
@@ -103,6 +109,7 @@ pub fn dialog_ui(ctx: &egui::Context, model: &mut Model<'_>, dialog: &mut Option
             Dialog::OpenBall(path) => open_ball_ui(ui, model, path),
             Dialog::SaveScene(fields) => save_ui(ui, model, fields),
             Dialog::Picture(fields) => picture_ui(ui, model, fields),
+            Dialog::Export(export) => export_ui(ui, model, export),
         };
     });
     if close || response.should_close() {
@@ -111,7 +118,7 @@ pub fn dialog_ui(ctx: &egui::Context, model: &mut Model<'_>, dialog: &mut Option
 }
 
 /// A line for a path and a button for the system's own dialog.
-fn path_ui(ui: &mut Ui, path: &mut String, label: &str) -> bool {
+pub(super) fn path_ui(ui: &mut Ui, path: &mut String, label: &str) -> bool {
     let mut browse = false;
     ui.horizontal(|ui| {
         let name = ui.label(label);
@@ -173,7 +180,7 @@ fn save_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut SaveDialog) -> bool 
 }
 
 /// The last row: the deed and a way out; true when the dialog is done with.
-fn buttons_ui(ui: &mut Ui, deed: &str, ready: bool, act: impl FnOnce()) -> bool {
+pub(super) fn buttons_ui(ui: &mut Ui, deed: &str, ready: bool, act: impl FnOnce()) -> bool {
     ui.add_space(6.0);
     let mut done = false;
     ui.horizontal(|ui| {

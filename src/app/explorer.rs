@@ -46,6 +46,8 @@ pub struct Explorer {
     /// Jobs that end in a message, and perhaps in a picture for the clipboard.
     errands: Vec<Job<Result<Errand, String>>>,
     asked: Option<Asked>,
+    /// Texels a second that the last export made.
+    export_rate: Option<f64>,
     messages: Vec<Message>,
     dialog: Option<Dialog>,
     next_job: u64,
@@ -79,6 +81,7 @@ impl Explorer {
             opening: None,
             errands: Vec::new(),
             asked: None,
+            export_rate: None,
             messages: Vec::new(),
             dialog: None,
             next_job: 1,
@@ -238,6 +241,7 @@ impl Explorer {
             frames: self.frames,
             adapter: &adapter,
             jobs: &jobs,
+            export_rate: self.export_rate,
             messages: &self.messages,
             gpu: &self.gpu,
             views: &mut self.views,
@@ -333,6 +337,7 @@ impl Explorer {
             Command::Open(path) => self.open(ctx, path),
             Command::SaveScene { path, force } => self.save_scene(ctx, path, force),
             Command::MakePicture(request) => self.make_picture(ctx, request),
+            Command::Export(export) => self.export(ctx, *export),
             Command::Cancel(id) => self.cancel(id),
             Command::Dismiss(index) => {
                 if index < self.messages.len() {

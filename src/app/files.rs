@@ -125,6 +125,7 @@ pub fn ask(dialog: &Dialog) -> Option<PathBuf> {
         Dialog::OpenBall(_) => files
             .add_filter("pictures", &["png", "jpg", "jpeg", "hdr", "exr"])
             .pick_file(),
+        Dialog::Export(export) => files.set_file_name(&export.path).save_file(),
         Dialog::SaveScene(_) => files.set_file_name(SaveDialog::default().path).save_file(),
         Dialog::Picture(_) => files
             .set_file_name(PictureDialog::default().path)

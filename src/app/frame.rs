@@ -23,6 +23,7 @@ pub fn frame_of(
     };
     let mut frame = Frame {
         texel_budget: state.texel_budget,
+        rotation: state.rotation,
         exposure_ev: state.exposure_ev,
         tone: state.tone,
         viewport: None,

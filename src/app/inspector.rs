@@ -13,7 +13,7 @@ use crate::mapping::cube_face::{
     FACES, GREAT_CIRCLES, SIGN_TABLE, great_circle_checks, meeting_faces, sign_table,
 };
 use crate::mapping::{ChartPoint, MappingId, Step};
-use crate::math::{Vec3, inputs::SIGN_PATTERNS};
+use crate::math::{Rotation, Vec3, inputs::SIGN_PATTERNS, turned};
 
 /// Shows the inspector, scrolled where it is too long.
 pub fn inspector_ui(ui: &mut Ui, model: &mut Model<'_>) {
@@ -101,7 +101,10 @@ fn readout_ui(ui: &mut Ui, model: &mut Model<'_>) {
             let solid = mapping.texel_solid_angle_sr(point.chart, texel, size);
             row("solid angle", format!("{:.4} µsr", solid * 1e6));
             row("texel, linear light", color_text(model.texel_color));
-            if let Some(original) = model.surroundings.and_then(|s| bad_original(s, dir)) {
+            if let Some(original) = model
+                .surroundings
+                .and_then(|s| bad_original(s, model.state.rotation, dir))
+            {
                 row("in the file", original);
             }
             if !info.coverage.contains(dir.to_f64()) {
@@ -121,8 +124,12 @@ fn color_text(color: Option<[f32; 3]>) -> String {
 }
 
 /// What the file held where the probe looks, if it had to be replaced.
-fn bad_original(surroundings: &super::model::Surroundings, dir: Vec3<f64>) -> Option<String> {
-    let point = MappingId::Latlong.forward(dir)?;
+fn bad_original(
+    surroundings: &super::model::Surroundings,
+    rotation: Rotation,
+    dir: Vec3<f64>,
+) -> Option<String> {
+    let point = MappingId::Latlong.forward(turned(rotation.source_from_world(), dir))?;
     let image = &surroundings.loaded.image;
     let (x, y) = image.texel_at(point.u, point.v);
     let [r, g, b] = surroundings.loaded.originals.get(image.index(x, y)?)?;

@@ -108,6 +108,9 @@ fn shortcuts(ctx: &Context, commands: &mut Vec<Command>, dialog: &mut Option<Dia
     if control(Modifiers::NONE, Key::S) {
         *dialog = Some(Dialog::SaveScene(SaveDialog::default()));
     }
+    if control(Modifiers::SHIFT, Key::E) {
+        *dialog = Some(Dialog::Export(Box::default()));
+    }
     if control(Modifiers::NONE, Key::E) {
         *dialog = Some(Dialog::Picture(PictureDialog::default()));
     }

@@ -73,6 +73,8 @@ pub struct Model<'a> {
     pub adapter: &'a str,
     /// Jobs under way.
     pub jobs: &'a [JobLine],
+    /// Texels a second that the last export made.
+    pub export_rate: Option<f64>,
     /// Messages to show.
     pub messages: &'a [Message],
     /// The device, for naming views.

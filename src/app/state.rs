@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::gpu::ToneCurve;
 use crate::imaging::Environment;
 use crate::mapping::MappingId;
-use crate::math::Vec3;
+use crate::math::{Rotation, Vec3};
 use crate::optics::{Formula, Material};
 use crate::scene::object::FULL_DENSITY;
 use crate::scene::{Camera, Object, Ray};
@@ -18,7 +18,7 @@ use super::objects::target_of;
 use super::viewport::looked_up;
 
 /// Version of the saved form. A scene of a later version is refused; earlier ones are migrated by [`AppState::from_json`].
-pub const SCHEMA: u32 = 2;
+pub const SCHEMA: u32 = 3;
 
 /// Everything that a saved scene holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,6 +28,8 @@ pub struct AppState {
     pub schema: u32,
     /// What surrounds the object.
     pub environment: Environment,
+    /// How it is turned; scenes before form 3 know no turn.
+    pub rotation: Rotation,
     /// The mapping that the object and the sky look up.
     pub mapping: MappingId,
     /// A second mapping right of the divider.
@@ -129,6 +131,8 @@ pub struct Overlays {
     pub probe: bool,
     /// Names of charts and of compared mappings.
     pub names: bool,
+    /// Rings over the viewport that turn the environment.
+    pub rings: bool,
 }
 
 impl Default for Overlays {
@@ -141,6 +145,7 @@ impl Default for Overlays {
             axes: true,
             probe: true,
             names: true,
+            rings: false,
         }
     }
 }
@@ -155,6 +160,7 @@ impl Overlays {
         axes: false,
         probe: false,
         names: false,
+        rings: false,
     };
 }
 
@@ -298,6 +304,7 @@ impl Default for AppState {
         Self {
             schema: SCHEMA,
             environment: Environment::default(),
+            rotation: Rotation::NONE,
             mapping: MappingId::Ccm,
             compare: None,
             divider: 0.5,
@@ -375,6 +382,7 @@ impl AppState {
     pub fn sanitized(mut self) -> Self {
         let finite = |x: f32, or: f32| if x.is_finite() { x } else { or };
         self.schema = SCHEMA;
+        self.rotation = self.rotation.sanitized();
         self.divider = finite(self.divider, 0.5).clamp(0.0, 1.0);
         self.compare = self.compare.filter(|m| *m != self.mapping);
         self.camera = self.camera.sanitized();

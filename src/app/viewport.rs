@@ -10,6 +10,7 @@ use super::probe::texel_outline;
 use super::state::EyeRay;
 use super::story::{self, Arrow, dir_of, point_of};
 use super::theme;
+use super::turning::rings_ui;
 use super::views::ViewKey;
 use crate::gpu::GREAT_CIRCLE_COLORS;
 use crate::mapping::MappingId;
@@ -35,7 +36,8 @@ pub fn viewport_ui(ui: &mut Ui, model: &mut Model<'_>) {
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "The viewport"));
     model.view_ui(ui, ViewKey::Viewport, rect);
     let on_divider = divider_ui(ui, model, rect);
-    if !on_divider {
+    let on_ring = rings_ui(ui, model, rect);
+    if !on_divider && !on_ring {
         pointer(ui, model, rect, &response);
     }
     paint_marks(ui, model, rect);

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use crate::imaging::png_out::MAX_SIDE;
 use crate::mapping::{MappingId, UnknownMapping};
+use crate::math::Rotation;
 use crate::optics::Material;
 use crate::optics::presets::presets;
 use crate::scene::Object;
@@ -39,6 +40,9 @@ pub struct RenderOptions {
     /// Name of a built-in environment, or a latlong picture file
     #[arg(long, value_name = "NAME|FILE")]
     pub environment: Option<String>,
+    /// Turn the environment by these angles in degrees
+    #[arg(long, value_name = "YAW,PITCH,ROLL", allow_hyphen_values = true)]
+    pub rotate: Option<Rotation>,
     /// The object that mirrors it: sphere, torus, rounded-cube, teapot
     #[arg(long, value_name = "NAME", value_parser = object)]
     pub object: Option<Object>,

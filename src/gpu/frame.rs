@@ -8,6 +8,7 @@ use super::shared::Shared;
 use super::tone::ToneCurve;
 use crate::imaging::ball::BallPixels;
 use crate::mapping::MappingId;
+use crate::math::Rotation;
 use crate::optics::Material;
 use crate::scene::trace::Traced;
 use crate::scene::{Camera, Target};
@@ -20,6 +21,8 @@ pub const MAX_EXPOSURE_EV: f32 = 24.0;
 pub struct Frame {
     /// Texels of each map, all charts together; see [`map_size`](super::map::map_size).
     pub texel_budget: u32,
+    /// How the environment is turned.
+    pub rotation: Rotation,
     /// Stops by which light is made brighter.
     pub exposure_ev: f32,
     /// How bright light is brought into the screen's range.
@@ -39,6 +42,7 @@ impl Default for Frame {
     fn default() -> Self {
         Self {
             texel_budget: 6 * 256 * 256,
+            rotation: Rotation::NONE,
             exposure_ev: 0.0,
             tone: ToneCurve::default(),
             viewport: None,
@@ -235,6 +239,7 @@ impl Frame {
         }
         let viewport = self.viewport.clone().filter(|v| visible(v.size_px));
         Self {
+            rotation: self.rotation.sanitized(),
             viewport: viewport.map(ViewportFrame::normalized),
             panels,
             ..self.clone()

@@ -2,8 +2,9 @@
 
 use super::environment::EnvironmentTexture;
 use super::kit::{Kit, LIGHT_FORMAT, bake_source, begin_pass};
-use super::uniforms::Bake;
+use super::uniforms::{Bake, vec4};
 use crate::mapping::{ChartPoint, MappingId};
+use crate::math::Rotation;
 
 /// Mip levels of a map: texels down to a sixteenth.
 pub const MAP_LEVELS: u32 = 5;
@@ -106,6 +107,7 @@ impl Map {
         pipeline: &wgpu::RenderPipeline,
         id: MappingId,
         environment: &EnvironmentTexture,
+        rotation: Rotation,
     ) {
         let device = &kit.gpu.device;
         let charts = id.info().chart_count();
@@ -120,6 +122,9 @@ impl Map {
             .next_multiple_of(stride.max(1));
         let mut bytes = vec![0u8; stride * targets.len()];
         let [texels_per_rad, last_level] = environment.resolution();
+        let columns = rotation
+            .world_from_source()
+            .map(|row| vec4(row.map(|x| x as f32), 0.0));
         for (place, (chart, level)) in bytes.chunks_exact_mut(stride).zip(&targets) {
             let block = Bake {
                 chart: [
@@ -129,6 +134,7 @@ impl Map {
                     *chart as f32,
                 ],
                 environment: [texels_per_rad, last_level, 0.0, 0.0],
+                environment_from_world: columns,
             };
             let (head, _) = place.split_at_mut(size_of::<Bake>());
             head.copy_from_slice(bytemuck::bytes_of(&block));

@@ -9,6 +9,7 @@ use std::fmt;
 use super::frame::{Frame, Look, PanelFrame, ViewportFrame};
 use super::map::map_size;
 use crate::mapping::MappingId;
+use crate::math::Rotation;
 
 /// Something that can be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -32,12 +33,14 @@ impl fmt::Display for Node {
 }
 
 /// What a map's texels depend on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MapKey {
     /// Number of the environment.
     pub environment: u64,
     /// Width and height of a chart in texels.
     pub size: [u32; 2],
+    /// How the environment is turned.
+    pub rotation: Rotation,
 }
 
 /// What the viewport's pixels depend on.
@@ -119,6 +122,7 @@ impl Plan {
             let wanted = MapKey {
                 environment,
                 size: map_size(id, frame.texel_budget),
+                rotation: frame.rotation,
             };
             let present = drawn.maps.get(&id).copied();
             let list = if present == Some(wanted) {

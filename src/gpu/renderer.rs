@@ -401,7 +401,7 @@ impl Renderer {
         if map.size != key.size {
             *map = Map::new(kit, id, key.size);
         }
-        map.bake(kit, encoder, pipeline, id, environment);
+        map.bake(kit, encoder, pipeline, id, environment, key.rotation);
         true
     }
 

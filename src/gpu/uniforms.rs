@@ -13,6 +13,8 @@ pub struct Bake {
     pub chart: [f32; 4],
     /// Texels of the environment in a radian, its last level.
     pub environment: [f32; 4],
+    /// Columns: from a direction of the world to the one in the environment's picture; the fourth number is unused.
+    pub environment_from_world: [[f32; 4]; 3],
 }
 
 /// Twin of `View` in `shaders/viewport.wgsl`.
@@ -88,7 +90,7 @@ pub fn blocks() -> Vec<(&'static str, usize, Members)> {
         };
     }
     vec![
-        block!(Bake: chart, environment),
+        block!(Bake: chart, environment, environment_from_world),
         block!(View: clip_from_relative, eye, forward, right, up, probe),
         block!(Material: interface_, shape, metal_n, metal_k, counts, screen_right, screen_up, wavelengths),
         block!(Panel: window, background, screen, overlays),

@@ -1,4 +1,4 @@
-//! Numbers: the number trait, stable angles, units in the last place, dual numbers, input points.
+//! Numbers: the number trait, stable angles, turns, units in the last place, dual numbers, input points.
 
 mod arctan;
 mod branchless;
@@ -6,6 +6,7 @@ mod double_word;
 mod dual;
 pub mod inputs;
 mod real;
+mod rotation;
 pub mod ulp;
 mod vec3;
 
@@ -16,4 +17,5 @@ pub use branchless::{atan2_turns, floor_and_rest, nearest_whole, sin_cos_eighth}
 pub use double_word::DoubleWord;
 pub use dual::Dual;
 pub use real::{Real, Textbook};
+pub use rotation::{BadRotation, Rotation, Rows, turned};
 pub use vec3::{Vec3, angle_rad, unit_in_plane};

@@ -7,7 +7,7 @@ use sixfold::gpu::{
     Shared, ToneCurve, ViewportFrame,
 };
 use sixfold::mapping::{ChartPoint, Coverage, MappingId};
-use sixfold::math::Vec3;
+use sixfold::math::{Rotation, Vec3};
 use sixfold::scene::{Camera, Object, Target};
 
 pub const BUDGET: u32 = 96 * 1024;
@@ -95,6 +95,7 @@ pub fn panel(mapping: MappingId) -> PanelFrame {
 pub fn frame(viewport: Option<ViewportFrame>, panels: &[PanelFrame]) -> Frame {
     Frame {
         texel_budget: BUDGET,
+        rotation: Rotation::NONE,
         exposure_ev: 0.0,
         tone: ToneCurve::Linear,
         viewport,

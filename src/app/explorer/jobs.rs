@@ -8,6 +8,7 @@ use egui::Context;
 use super::Explorer;
 use crate::app::action::Action;
 use crate::app::dialogs::{Dialog, ball_from};
+use crate::app::export::Export;
 use crate::app::files::{self, Opened};
 use crate::app::job::{Job, Outcome};
 use crate::app::model::{JobLine, Surroundings};
@@ -49,6 +50,8 @@ pub(super) struct Errand {
     message: String,
     /// For the clipboard.
     picture: Option<egui::ColorImage>,
+    /// Texels a second that were exported.
+    rate: Option<f64>,
 }
 
 /// Writes a scene as text.
@@ -133,11 +136,30 @@ impl Explorer {
                 Destination::File { path, .. } => Errand {
                     message: format!("The picture is in {}", path.display()),
                     picture: None,
+                    rate: None,
                 },
                 Destination::Clipboard => Errand {
                     message: "The picture was sent to the clipboard".to_owned(),
                     picture: Some(picture.to_color_image()),
+                    rate: None,
                 },
+            })
+        });
+    }
+
+    /// Writes the environment for another program.
+    pub(super) fn export(&mut self, ctx: &Context, export: Export) {
+        let Some(surroundings) = self.surroundings.clone() else {
+            self.fail("the environment is still loading; export it when it is there".to_owned());
+            return;
+        };
+        self.send(ctx, "exporting the environment", move |progress| {
+            let start = std::time::Instant::now();
+            export.write(&surroundings.loaded.image, progress)?;
+            Ok(Errand {
+                message: format!("The environment is in {}", export.path),
+                picture: None,
+                rate: Some(export.texels() as f64 / start.elapsed().as_secs_f64()),
             })
         });
     }
@@ -150,6 +172,7 @@ impl Explorer {
             Ok(Errand {
                 message,
                 picture: None,
+                rate: None,
             })
         });
     }
@@ -316,7 +339,12 @@ impl Explorer {
         for job in std::mem::take(&mut self.errands) {
             match job.poll() {
                 Outcome::Running => self.errands.push(job),
-                Outcome::Done(Ok(Errand { message, picture })) => {
+                Outcome::Done(Ok(Errand {
+                    message,
+                    picture,
+                    rate,
+                })) => {
+                    self.export_rate = rate.or(self.export_rate);
                     if let Some(picture) = picture {
                         ctx.copy_image(picture);
                     }

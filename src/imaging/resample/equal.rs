@@ -2,7 +2,7 @@
 
 use crate::imaging::MapShape;
 use crate::mapping::MappingId;
-use crate::math::Vec3;
+use crate::math::{Rotation, Rows, Vec3};
 
 /// Texels that a horizontal circle of directions crosses: once around, whatever part of it the mapping holds.
 ///
@@ -54,31 +54,8 @@ pub fn equal_height(mapping: MappingId, source: &MapShape) -> u32 {
 /// was `yaw` to the right of the source's, so the picture moves to the left.
 ///
 /// Multiples of 90 degrees are exact.
-pub fn rotation_of_viewer([yaw, pitch, roll]: [f64; 3]) -> [[f64; 3]; 3] {
-    let [(sy, cy), (sp, cp), (sr, cr)] = [yaw, pitch, roll].map(sin_cos_deg);
-    // Columns are where right, up and ahead of the turned viewer point.
-    let yaw = [[cy, 0.0, sy], [0.0, 1.0, 0.0], [-sy, 0.0, cy]];
-    let pitch = [[1.0, 0.0, 0.0], [0.0, cp, sp], [0.0, -sp, cp]];
-    let roll = [[cr, sr, 0.0], [-sr, cr, 0.0], [0.0, 0.0, 1.0]];
-    product(yaw, product(pitch, roll))
-}
-
-fn product(a: [[f64; 3]; 3], b: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    // Adding 0 makes every zero a plain one, so that no turn equals no rotation.
-    let cell = |i: usize, j: usize| (0..3).map(|k| a[i][k] * b[k][j]).sum::<f64>() + 0.0;
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| cell(i, j)))
-}
-
-fn sin_cos_deg(degrees: f64) -> (f64, f64) {
-    let quarter = (degrees / 90.0).round();
-    // Both exact: the quotient is whole, and so is its product.
-    let (sin, cos) = (degrees - 90.0 * quarter).to_radians().sin_cos();
-    match quarter.rem_euclid(4.0) as u8 {
-        0 => (sin, cos),
-        1 => (cos, -sin),
-        2 => (-sin, -cos),
-        _ => (-cos, sin),
-    }
+pub fn rotation_of_viewer(degrees: [f64; 3]) -> Rows {
+    Rotation::from_degrees(degrees).source_from_world()
 }
 
 #[cfg(test)]

@@ -1,0 +1,148 @@
+//! The dialog that writes the environment for another program.
+
+use egui::{ComboBox, DragValue, Grid, RichText, Ui};
+
+use super::command::Command;
+use super::dialogs::{buttons_ui, path_ui};
+use super::export::{Export, FORMATS, Preset, kind_names, kinds};
+use super::model::Model;
+use crate::imaging::load::Format;
+use crate::imaging::resample::{MOST_SIDE, chart_size};
+use crate::mapping::{Frame, Layout, MappingId};
+
+/// A row of the form: a name and a list to choose from.
+fn row_ui<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    label: &str,
+    now: &mut T,
+    options: &[T],
+    name: impl Fn(&T) -> String,
+) -> bool {
+    let before = now.clone();
+    let text = ui.label(label);
+    ComboBox::from_id_salt(("export", label))
+        .width(250.0)
+        .selected_text(name(now))
+        .show_ui(ui, |ui| {
+            for option in options {
+                ui.selectable_value(now, option.clone(), name(option));
+            }
+        })
+        .response
+        .labelled_by(text.id);
+    ui.end_row();
+    *now != before
+}
+
+/// The whole form; true when it is done with.
+pub fn export_ui(ui: &mut Ui, model: &mut Model<'_>, export: &mut Export) -> bool {
+    ui.heading("Export the environment");
+    ui.horizontal_wrapped(|ui| {
+        ui.label("as for");
+        for preset in &Preset::ALL {
+            if ui.button(preset.name).clicked() {
+                export.set_preset(preset);
+            }
+        }
+    });
+    Grid::new("export")
+        .num_columns(2)
+        .show(ui, |ui| form_ui(ui, export));
+    export.rotation = model.state.rotation;
+    if !export.rotation.is_none() {
+        ui.label(format!("turned as the scene is, by {}", export.rotation));
+    }
+    let input = model.state.environment.id();
+    if path_ui(ui, &mut export.path, "file") {
+        model.push(Command::Browse);
+    }
+    ui.checkbox(&mut export.force, "replace the file if it exists");
+    ui.label(estimate(export, model.export_rate));
+    let line = export.command_line(&input);
+    ui.horizontal(|ui| {
+        if ui.button("Copy the line").clicked() {
+            model.push(Command::CopyText(line.clone()));
+        }
+        ui.add(egui::Label::new(RichText::new(&line).monospace().small()).wrap());
+    });
+    let ready = model.surroundings.is_some() && !export.path.trim().is_empty();
+    buttons_ui(ui, "Export", ready, || {
+        model.push(Command::Export(Box::new(export.clone())));
+    })
+}
+
+fn form_ui(ui: &mut Ui, export: &mut Export) {
+    let info = |mapping: &MappingId| mapping.info().name.to_owned();
+    let mut changed = row_ui(ui, "mapping", &mut export.mapping, MappingId::ALL, info);
+    let knows = Frame::ALL
+        .iter()
+        .filter(|frame| frame.knows(export.mapping));
+    let frames: Vec<Option<&'static str>> = std::iter::once(None)
+        .chain(knows.map(|frame| Some(frame.id)))
+        .collect();
+    let name = |id: &Option<&'static str>| match id.map(Frame::from_id) {
+        Some(Ok(frame)) => frame.name.to_owned(),
+        _ => "Sixfold's own".to_owned(),
+    };
+    changed |= row_ui(ui, "frame", &mut export.frame, &frames, name);
+    if let Some(Ok(frame)) = export.frame.map(Frame::from_id)
+        && frame.is_mirrored(export.mapping)
+    {
+        ui.label("");
+        ui.label("seen with other eyes this file is a mirror image, as the program wants it");
+        ui.end_row();
+    }
+    let charts = export.mapping.info().chart_count();
+    let fits = |layout: &Layout| layout.holds(charts) && (charts > 1 || *layout != Layout::Faces);
+    let layouts: Vec<Layout> = Layout::ALL.into_iter().filter(fits).collect();
+    changed |= row_ui(ui, "layout", &mut export.layout, &layouts, |layout| {
+        layout.id().to_owned()
+    });
+    let formats = FORMATS.map(|(format, _)| format);
+    let format_name = |format: &Format| format.name().to_owned();
+    changed |= row_ui(ui, "format", &mut export.format, &formats, format_name);
+    let kind = kinds(export.format);
+    changed |= row_ui(ui, "samples", &mut export.stored, kind, |stored| {
+        kind_names(*stored).0.to_owned()
+    });
+    let label = ui.label("rows of a chart");
+    ui.horizontal(|ui| {
+        let rows = DragValue::new(&mut export.height).range(1..=MOST_SIDE.min(8192));
+        ui.add(rows).labelled_by(label.id);
+        let [width, height] = chart_size(export.mapping, export.height);
+        ui.label(format!("{charts} × {width}×{height} texels"));
+    });
+    ui.end_row();
+    ui.label("");
+    ui.horizontal(|ui| {
+        let is_container = export.format.is_container();
+        ui.add_enabled_ui(is_container, |ui| {
+            ui.checkbox(&mut export.has_levels, "all smaller levels");
+        });
+        ui.add_enabled_ui(export.format == Format::Ktx2, |ui| {
+            ui.checkbox(&mut export.zstd, "compressed (zstd)");
+        });
+    });
+    ui.end_row();
+    if changed {
+        export.mend();
+    }
+}
+
+/// Size and time in words; `rate` is in texels a second.
+fn estimate(export: &Export, rate: Option<f64>) -> String {
+    let megabytes = export.bytes() as f64 / 1e6;
+    let most = if export.is_compressed() {
+        "at most"
+    } else {
+        "about"
+    };
+    let time = match rate {
+        Some(rate) => {
+            let seconds = export.texels() as f64 / rate;
+            format!("about {seconds:.1} s at the rate of the last export")
+        }
+        None => "the first export measures this machine's rate".to_owned(),
+    };
+    format!("{most} {megabytes:.2} MB; {time}")
+}
