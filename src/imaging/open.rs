@@ -67,15 +67,28 @@ pub fn open_map(
         return Err(unclear("name one file".to_owned()));
     };
     let file = super::load::read_raster(path, progress)?;
-    let is_latlong = file.raster.width() == 2 * file.raster.height();
+    let known = super::detect::Known {
+        envmap: file.envmap,
+        is_cube: false,
+    };
+    let rasters = [file.raster];
+    let detection = super::detect::detect(&rasters, known);
+    let [raster] = rasters;
+    let first = detection.proposals.first();
     let mapping = hints
         .mapping
-        .or(is_latlong.then_some(MappingId::Latlong))
+        .or(first
+            .filter(|_| detection.is_certain)
+            .map(|first| first.mapping))
         .ok_or_else(|| {
             unclear("what map it is cannot be told; name it with --from MAP".to_owned())
         })?;
-    let layout = hints.layout.unwrap_or(mapping.info().layout);
-    let map = EnvironmentMap::from_layout(mapping, layout, vec![file.raster])
+    let proposed = first.filter(|first| first.mapping == mapping);
+    let layout = hints
+        .layout
+        .or(proposed.map(|first| first.layout))
+        .unwrap_or(mapping.info().layout);
+    let map = EnvironmentMap::from_layout(mapping, layout, vec![raster])
         .map_err(|error| unclear(error.to_string()))?;
     let (mut shape, rasters) = map.into_parts();
     if let Some(frame) = hints.frame {
@@ -91,13 +104,14 @@ pub fn open_map(
     let map = EnvironmentMap::new(shape, rasters).map_err(|error| unclear(error.to_string()))?;
     Ok(OpenedMap {
         map,
-        proposals: Vec::new(),
+        proposals: detection.proposals,
         chosen: Proposal {
             mapping,
             layout,
             siting: Siting::Centre,
             frame: None,
             score: None,
+            doubt: 0.0,
             why: "it is said to be, or has the shape".to_owned(),
         },
         notes: Vec::new(),

@@ -175,7 +175,9 @@ mod tests {
         let both = name("a/%f_%04d.png");
         assert!(both.has_face() && both.has_number());
         assert_eq!(both.file("px", 7), Path::new("a/px_0007.png"));
-        assert_eq!(both.of_face("px"), name("a/px_%04d.png"));
+        let right = both.of_face("px");
+        assert!(!right.has_face());
+        assert_eq!(right.file("", 7), Path::new("a/px_0007.png"));
         assert_eq!(name("%d.png").file("", 123), Path::new("123.png"));
         for plain in ["100%.png", "a%g.png", "%4d.png", "%0999d.png", "x%"] {
             let plain = name(plain);
