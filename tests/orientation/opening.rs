@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use sixfold::imaging::load::Format;
 use sixfold::imaging::save::{Content, SaveOptions, format_of_path, save};
 use sixfold::imaging::{
-    Container, EnvmapKind, Level, OpenHints, OpenedMap, Progress, Raster, Siting, Stored, open_map,
+    Container, EnvmapKind, Level, OpenHints, OpenedMap, Progress, Raster, Siting, Stored, Transfer,
+    open_map,
 };
 use sixfold::mapping::{Layout, MappingId};
 
@@ -161,4 +162,25 @@ fn faces_that_do_not_fit_are_noted_or_refused() {
     write(&paths[4], Content::Raster(small), None);
     let error = open(&paths[0], &OpenHints::default()).unwrap_err();
     assert!(error.contains("the faces differ: 12 x 12"), "{error}");
+}
+
+#[test]
+fn what_is_said_of_the_faces_is_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = write_set(folder.path(), &SETS[0]);
+    let plain = open(&paths[0], &OpenHints::default()).unwrap();
+    let exr = sixfold::mapping::Frame::from_id("openexr").unwrap();
+    let mut hints = OpenHints {
+        frame: Some(exr),
+        transfer: Some(Transfer::Srgb),
+        ..OpenHints::default()
+    };
+    let framed = open(&paths[0], &hints).unwrap();
+    let (was, is) = (plain.map.shape(), framed.map.shape());
+    assert_eq!((is.siting, is.transfer), (Siting::Edge, Transfer::Srgb));
+    assert_eq!((is.charts[4], is.charts[5]), (was.charts[5], was.charts[4]));
+    // An arrangement stands in place of the frame's own.
+    hints.arrange = Some(sixfold::mapping::Arrangement::IDENTITY);
+    let arranged = open(&paths[0], &hints).unwrap();
+    assert_eq!(arranged.map.shape().charts, was.charts);
 }
