@@ -34,6 +34,25 @@ pub struct Proposal {
 }
 
 impl Proposal {
+    /// What someone says of the pictures, not looked at.
+    pub(super) fn said(mapping: MappingId, layout: Layout) -> Self {
+        Self {
+            mapping,
+            layout,
+            siting: Siting::Centre,
+            frame: None,
+            score: None,
+            why: "as it was said to be".to_owned(),
+            doubt: 0.0,
+        }
+    }
+
+    /// Whether the two differ in nothing that pixels tell, or in whose orientation the faces have.
+    pub(super) fn is_laid_like(&self, other: &Self) -> bool {
+        self.layout == other.layout
+            && (self.mapping == other.mapping || is_sibling(self, other) || is_sibling(other, self))
+    }
+
     /// The shape of the map when the pictures are taken so; `None` when they do not fit.
     pub fn shape(&self, rasters: &[Raster]) -> Option<MapShape> {
         let mut shape = plain_shape(self.mapping, self.layout, rasters)?;
@@ -78,6 +97,20 @@ pub struct Detection {
     pub proposals: Vec<Proposal>,
     /// Whether the first one is so much likelier than the others that nobody needs to be asked.
     pub is_certain: bool,
+}
+
+impl Detection {
+    /// The one to take without asking: the first where that is certain, and a latlong where nothing else is clearly likelier.
+    /// Most pictures twice as wide as high are panoramas, whose borders meet badly only in cut ones.
+    pub fn taken(&self) -> Option<&Proposal> {
+        let first = self.proposals.first()?;
+        if self.is_certain {
+            return Some(first);
+        }
+        let mut all = self.proposals.iter();
+        let latlong = all.find(|proposal| proposal.mapping == MappingId::Latlong)?;
+        (latlong.doubt < CLEARLY * first.doubt).then_some(latlong)
+    }
 }
 
 /// Proposes what the pictures are: one picture, or six faces.

@@ -98,6 +98,20 @@ impl MapShape {
         }
     }
 
+    /// Takes the pictures in a row, a column or two rows to be in a program's order. Where the cells stand for the labels, as
+    /// in a cross or six files, the order says nothing.
+    pub fn apply_order(&mut self, frame: &Frame, layout: Layout) {
+        if let Some(cube) = frame.cube
+            && self.charts.len() == 6
+            && matches!(layout, Layout::Row | Layout::Column | Layout::ThreeByTwo)
+        {
+            let in_order = self.charts.clone();
+            for (label, placement) in cube.order.into_iter().zip(in_order) {
+                self.charts[label] = placement;
+            }
+        }
+    }
+
     /// Takes a map that was laid out plainly for one that a program has laid out in its own way.
     ///
     /// # Errors
@@ -107,16 +121,10 @@ impl MapShape {
         if !frame.knows(self.mapping) {
             return Err(unknown());
         }
-        if let (Some(cube), Some(arrangement)) = (frame.cube, frame.arrangement())
+        if let Some(arrangement) = frame.arrangement()
             && self.charts.len() == 6
         {
-            // Where the cells stand for the labels, as in a cross or six files, the order says nothing.
-            if matches!(layout, Layout::Row | Layout::Column | Layout::ThreeByTwo) {
-                let in_order = self.charts.clone();
-                for (label, placement) in cube.order.into_iter().zip(in_order) {
-                    self.charts[label] = placement;
-                }
-            }
+            self.apply_order(frame, layout);
             self.arrange(&arrangement);
         } else {
             self.world_from_map = frame.world_from_map(self.mapping).ok_or_else(unknown)?;

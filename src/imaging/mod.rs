@@ -29,6 +29,7 @@ pub mod detect;
 mod environment;
 mod environment_map;
 mod evenness;
+mod face_files;
 mod file;
 mod image;
 pub mod load;

@@ -179,6 +179,11 @@ impl Raster {
         &mut self.samples
     }
 
+    /// Takes the numbers to become light in another way; none is changed.
+    pub const fn retag(&mut self, transfer: Transfer) {
+        self.transfer = transfer;
+    }
+
     /// Bytes that the samples take.
     pub const fn bytes(&self) -> u64 {
         self.samples.len() as u64 * self.samples.kind().bytes() as u64

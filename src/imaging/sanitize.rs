@@ -46,6 +46,15 @@ impl BadTexels {
     }
 }
 
+impl std::ops::AddAssign for BadTexels {
+    fn add_assign(&mut self, other: Self) {
+        self.nan += other.nan;
+        self.infinite += other.infinite;
+        self.negative += other.negative;
+        self.too_bright += other.too_bright;
+    }
+}
+
 /// What replaced texels held, for the readout.
 #[derive(Clone, Debug, Default)]
 pub struct Originals {

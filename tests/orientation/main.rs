@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod detecting;
+mod opening;
 mod scenes;
 mod seams;
 mod solving;

@@ -1,0 +1,122 @@
+//! Six files for the six faces, found by their usual names.
+
+use std::fs::read_dir;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::mapping::cube_face::FACES;
+
+/// What stands for the face in the name of a file.
+const PLACE: &str = "%f";
+
+/// What comes between a file's own name and the face's.
+const SEPARATORS: [char; 4] = ['_', '-', '.', ' '];
+
+/// The usual names in the order +x -x +y -y +z -z; in front is +z.
+const SETS: [[&str; 6]; 6] = [
+    ["px", "nx", "py", "ny", "pz", "nz"],
+    ["posx", "negx", "posy", "negy", "posz", "negz"],
+    ["right", "left", "top", "bottom", "front", "back"],
+    ["right", "left", "up", "down", "front", "back"],
+    ["+x", "-x", "+y", "-y", "+z", "-z"],
+    ["rt", "lf", "up", "dn", "ft", "bk"],
+];
+
+/// One letter is too little to tell a face from a file's own name, unless its place is given.
+const LETTERS: [&str; 6] = ["r", "l", "u", "d", "f", "b"];
+
+/// What a path stands for.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Named {
+    /// Six files.
+    Six([PathBuf; 6]),
+    /// Itself.
+    One,
+    /// Itself, although it is named like a face: so a file of the set would be called that is not there.
+    Alone(String),
+    /// Nothing: its `%f` fits no six files.
+    Missing,
+}
+
+/// The six files of a path with `%f`, or those beside a file that is named like one of six faces.
+///
+/// # Errors
+/// When the folder of a path with `%f` cannot be read.
+pub(super) fn named(path: &Path) -> io::Result<Named> {
+    let Some(name) = path.file_name().and_then(|name| name.to_str()) else {
+        return Ok(Named::One);
+    };
+    if let Some((before, after)) = name.split_once(PLACE) {
+        let folder = Folder::of(path)?;
+        let mut sets = SETS.iter().chain([&LETTERS]);
+        let six = sets.find_map(|set| folder.six(before, set, after).ok());
+        return Ok(six.map_or(Named::Missing, Named::Six));
+    }
+    let (stem, ending) = name.rfind('.').map_or((name, ""), |dot| name.split_at(dot));
+    let mut alone = Named::One;
+    for set in &SETS {
+        let Some((before, label)) = face_in(stem, set) else {
+            continue;
+        };
+        // Where the folder cannot be listed, its file may still open.
+        let Ok(folder) = Folder::of(path) else {
+            return Ok(Named::One);
+        };
+        match folder.six(before, set, ending) {
+            Ok(mut six) => {
+                path.clone_into(&mut six[label]);
+                return Ok(Named::Six(six));
+            }
+            Err(missing) if alone == Named::One => alone = Named::Alone(missing),
+            Err(_) => {}
+        }
+    }
+    Ok(alone)
+}
+
+/// What stands before a face's name at the end of a stem, and the face.
+fn face_in<'a>(stem: &'a str, set: &[&str; 6]) -> Option<(&'a str, usize)> {
+    (0..FACES.len()).find_map(|label| {
+        let (before, face) = stem.split_at_checked(stem.len().checked_sub(set[label].len())?)?;
+        let is_apart = before.is_empty() || before.ends_with(SEPARATORS);
+        (is_apart && face.eq_ignore_ascii_case(set[label])).then_some((before, label))
+    })
+}
+
+/// The names of the files in a folder.
+struct Folder<'a> {
+    path: &'a Path,
+    names: Vec<String>,
+}
+
+impl<'a> Folder<'a> {
+    fn of(file: &'a Path) -> io::Result<Self> {
+        let path = file.parent().unwrap_or(Path::new(""));
+        let read = if path.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            path
+        };
+        let names = read_dir(read)?.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        let mut names: Vec<String> = names.collect();
+        names.sort_unstable();
+        Ok(Self { path, names })
+    }
+
+    /// The files of a set, or the name of the first that is missing. Capitals do not matter in the face's name.
+    fn six(&self, before: &str, set: &[&str; 6], after: &str) -> Result<[PathBuf; 6], String> {
+        let mut six = [const { PathBuf::new() }; 6];
+        for (path, face) in six.iter_mut().zip(set) {
+            let is_face = |name: &&String| {
+                let inner = name
+                    .strip_prefix(before)
+                    .and_then(|n| n.strip_suffix(after));
+                inner.is_some_and(|inner| inner.eq_ignore_ascii_case(face))
+            };
+            let found = self.names.iter().find(is_face);
+            let name = found.ok_or_else(|| format!("{before}{face}{after}"))?;
+            *path = self.path.join(name);
+        }
+        Ok(six)
+    }
+}
