@@ -5,12 +5,14 @@
 //! - [`Image`]: RGB in linear light; [`sanitize`] makes every value finite and remembers what it replaced;
 //! - [`ball`]: pictures of a lit ball, for sphere-map styles;
 //! - [`computed`]: pictures that show where every direction went;
+//! - [`compare`]: how far two maps differ, and what a conversion loses;
 //! - [`open_regular`]: a file, and nothing that would wait for ever;
 //! - [`png_out`] and [`atomic`]: pictures to files, whole or not at all.
 
 pub mod atomic;
 pub mod ball;
 pub(crate) mod caught;
+pub mod compare;
 pub mod computed;
 mod environment;
 mod environment_map;
