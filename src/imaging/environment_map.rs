@@ -13,6 +13,18 @@ pub enum Siting {
     Edge,
 }
 
+impl Siting {
+    /// The chart coordinate in [0, 1] of a place along a side of `count` texels: k is the middle of texel k.
+    pub fn coordinate(self, place: f64, count: u32) -> f64 {
+        match self {
+            Self::Centre => (place + 0.5) / f64::from(count),
+            // A single sample has no two ends: it sits in the middle.
+            Self::Edge if count == 1 => 0.5 + place,
+            Self::Edge => place / (f64::from(count) - 1.0),
+        }
+    }
+}
+
 /// Where a chart lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placement {

@@ -8,6 +8,7 @@
 //! - [`EnvironmentMap`] and [`resample`]: a map as it lies in memory, and from one to any other;
 //! - [`ball`]: pictures of a lit ball, for sphere-map styles;
 //! - [`computed`]: pictures that show where every direction went;
+//! - [`compare`]: how far two maps differ, and what a conversion loses;
 //! - [`open_regular`]: a file, and nothing that would wait for ever;
 //! - [`png_out`] and [`atomic`]: pictures to files, whole or not at all.
 //!
@@ -23,6 +24,7 @@
 pub mod atomic;
 pub mod ball;
 pub(crate) mod caught;
+pub mod compare;
 pub mod computed;
 pub mod container;
 pub mod detect;

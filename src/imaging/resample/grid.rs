@@ -39,13 +39,7 @@ impl Grid {
 
     /// The coordinate in [0, 1] of a place along side `side` (0: across, 1: down).
     pub fn coordinate(&self, side: usize, place: f64) -> f64 {
-        let count = f64::from(self.size[side]);
-        match self.siting {
-            Siting::Centre => (place + 0.5) / count,
-            // A single sample has no two ends: it sits in the middle.
-            Siting::Edge if self.size[side] == 1 => 0.5 + place,
-            Siting::Edge => place / (count - 1.0),
-        }
+        self.siting.coordinate(place, self.size[side])
     }
 
     /// The place of a coordinate: undoes [`Grid::coordinate`].
