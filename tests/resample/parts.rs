@@ -192,3 +192,40 @@ fn there_and_back_loses_little() {
     budgets.must_break_db("a tenth lighter", broken, 42.0);
     budgets.check();
 }
+
+/// Waves of a band, seen by bilinear lookups: texels next to a seam err no more than others.
+#[test]
+fn seams_err_like_the_inside() {
+    let wave = |d: Dir| {
+        [0, 1, 2].map(|i| (0.5 + 0.4 * (6.0 * (d[i] + 0.3 * d[(i + 1) % 3])).sin()) as f32)
+    };
+    for mapping in [MappingId::Cube, MappingId::Eac, MappingId::Latlong] {
+        let source_shape = shape(mapping, size_of(mapping, 32));
+        let source = map_of(&source_shape, wave);
+        // The same mapping, finer by an odd number: places on both sides of each border.
+        let fine = size_of(mapping, 32).map(|n| 5 * n);
+        let same = conversion(&source_shape, mapping, fine, Filter::Bilinear);
+        let (target, _) = run(&source, &same);
+        let worst = |shift: f32| {
+            let mut worst = [0.0_f32; 2];
+            for (chart, [x, y], dir) in texels(target.shape()) {
+                let is_seam = [x, y]
+                    .iter()
+                    .zip(fine)
+                    .any(|(at, n)| *at < 3 || *at + 3 >= n);
+                let (light, exact) = (target.light(chart, [x, y]), wave(dir));
+                let off = if is_seam { shift } else { 0.0 };
+                for i in 0..3 {
+                    let error = (light[i] - exact[i] + off).abs();
+                    worst[usize::from(is_seam)] = worst[usize::from(is_seam)].max(error);
+                }
+            }
+            worst
+        };
+        let [inside, seam] = worst(0.0);
+        println!("{mapping}: worst inside {inside:.2e}, at a seam {seam:.2e}");
+        assert!(seam <= 1.5 * inside && seam > 0.05 * inside);
+        let [inside, seam] = worst(2.0 * inside);
+        assert!(seam > 1.5 * inside, "a seam that shows was not noticed");
+    }
+}
