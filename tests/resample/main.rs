@@ -11,5 +11,6 @@
 
 mod constants;
 mod fixtures;
+mod parts;
 mod quality;
 mod registration;
