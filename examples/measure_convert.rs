@@ -8,7 +8,9 @@
 use std::time::Instant;
 
 use sixfold::imaging::resample::{Conversion, Filter, FilteredIn, Isa, Plan};
-use sixfold::imaging::{Channels, EnvironmentMap, MapShape, Progress, Raster, Samples, Transfer};
+use sixfold::imaging::{
+    Channels, EnvironmentMap, MapShape, Progress, Raster, Samples, ShapeError, Transfer,
+};
 use sixfold::mapping::{Layout, MappingId};
 
 /// Times that each row is run; the median is printed, and the smallest.
@@ -93,7 +95,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             [2 * height, height],
             Layout::Single,
             false,
-        );
+        )?;
         let mut conversion =
             Conversion::new(MappingId::Cube, [height / 2, height / 2], source.shape());
         conversion.layout = Layout::Faces;
@@ -110,7 +112,12 @@ fn turned() -> [[f64; 3]; 3] {
     [[c, 0.0, s], [t * s, d, -t * c], [-d * s, t, d * c]]
 }
 
-fn noise(mapping: MappingId, size: [u32; 2], layout: Layout, float: bool) -> Result<EnvironmentMap, ShapeError> {
+fn noise(
+    mapping: MappingId,
+    size: [u32; 2],
+    layout: Layout,
+    float: bool,
+) -> Result<EnvironmentMap, ShapeError> {
     let mut bits = 1_u32;
     let mut next = || {
         bits = bits.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

@@ -132,7 +132,7 @@ pub(super) fn path_ui(ui: &mut Ui, path: &mut String, label: &str) -> bool {
 
 fn open_ui(ui: &mut Ui, model: &mut Model<'_>, path: &mut String) -> bool {
     ui.heading("Open");
-    ui.label("An environment (latlong HDR, EXR, PNG or JPEG), a model (OBJ, glTF or GLB), a scene, or a picture that Sixfold saved. Dropping the file onto the window does the same.");
+    ui.label("An environment (HDR, EXR, PNG, JPEG, KTX2 or DDS: a latlong, a cube in any layout, or one of six files named px, nx and so on), a model (OBJ, glTF or GLB), a scene, or a picture that Sixfold saved. Dropping the file onto the window does the same.");
     if path_ui(ui, path, "file") {
         model.push(Command::Browse);
     }

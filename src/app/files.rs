@@ -118,7 +118,7 @@ pub fn ask(dialog: &Dialog) -> Option<PathBuf> {
             .add_filter(
                 "environments, models and scenes",
                 &[
-                    "hdr", "exr", "png", "jpg", "jpeg", "obj", "gltf", "glb", "json",
+                    "hdr", "exr", "png", "jpg", "jpeg", "ktx2", "dds", "obj", "gltf", "glb", "json",
                 ],
             )
             .pick_file(),

@@ -30,7 +30,7 @@ pub struct Proposal {
     /// Why it is proposed, in a few words.
     pub why: String,
     /// How unlikely it is, all in all: the score, made larger by what speaks against it.
-    pub(super) doubt: f64,
+    doubt: f64,
 }
 
 impl Proposal {

@@ -11,9 +11,7 @@
 mod appendix_b;
 mod paper;
 
-use super::cube_face::{
-    self, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane,
-};
+use super::cube_face::{self, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane};
 use super::{ChartPoint, Convention, Erratum, EvaluatorInfo, Mapping, MappingInfo, Step};
 use super::{DirLanes, LANES, Lane, Line, PointLanes};
 use crate::math::{Real, Vec3, atan_unit, sin_cos_eighth};
@@ -115,7 +113,12 @@ impl Mapping for Ccm {
         let a = turns.tan_turns() * SQRT_2;
         let q = 1.0 / (1.0 + a * a).sqrt();
         let reach = q.atan() * FRAC_1_PI;
-        [(q * a) as f32, q as f32, reach as f32, (coordinate - 0.5) as f32]
+        [
+            (q * a) as f32,
+            q as f32,
+            reach as f32,
+            (coordinate - 0.5) as f32,
+        ]
     }
 
     #[inline(always)]

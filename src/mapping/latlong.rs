@@ -74,7 +74,11 @@ impl Mapping for Latlong {
     }
 
     fn line(side: usize, coordinate: f64) -> Line {
-        let angle = if side == 0 { longitude(coordinate) } else { colatitude(coordinate) };
+        let angle = if side == 0 {
+            longitude(coordinate)
+        } else {
+            colatitude(coordinate)
+        };
         [angle.0 as f32, angle.1 as f32, 0.0, 0.0]
     }
 

@@ -78,7 +78,7 @@ pub enum LoadProblem {
     },
     /// Not twice as wide as high.
     #[error(
-        "the picture is {width} x {height}, but a latlong is twice as wide as high; convert it, only latlong opens for now"
+        "the picture is {width} x {height}, but a latlong is twice as wide as high; `sixfold convert` makes one of any other map"
     )]
     NotLatlong {
         /// Texels in a row.
@@ -145,6 +145,17 @@ impl From<ReadProblem> for LoadProblem {
 }
 
 impl LoadProblem {
+    /// Whether the file may well open, but not as a single latlong picture.
+    pub(crate) fn is_of_shape(&self) -> bool {
+        matches!(self, Self::NotLatlong { .. } | Self::TooLarge { .. })
+            || matches!(
+                self,
+                Self::Unsupported {
+                    format: Format::Ktx2 | Format::Dds,
+                    ..
+                }
+            )
+    }
     pub(crate) fn damaged(format: Format, reason: impl ToString) -> Self {
         Self::Damaged {
             format,
