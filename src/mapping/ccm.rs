@@ -11,9 +11,9 @@
 mod appendix_b;
 mod paper;
 
-use super::cube_face::{self, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane};
+use super::cube_face::{self, face_lanes, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane};
 use super::{ChartPoint, Convention, Erratum, EvaluatorInfo, Mapping, MappingInfo, Step};
-use super::{DirLanes, LANES, Lane, Line, PointLanes};
+use super::{DirLanes, Lane, Line, PointLanes};
 use crate::math::{Real, Vec3, atan_unit, sin_cos_eighth};
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, PI, SQRT_2};
 
@@ -92,19 +92,13 @@ impl Mapping for Ccm {
 
     #[inline(always)]
     fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
-        points.base_u.fill(0.5);
-        points.base_v.fill(0.5);
-        for k in 0..LANES {
-            let (face, a, b) = sign_table_lane(dirs.x[k], dirs.y[k], dirs.z[k]);
-            points.chart[k] = face;
-            let is_x = face < 2;
-            let (along, across) = if is_x { (b, a) } else { (a, b) };
+        face_lanes(dirs, points, sign_table_lane, |face, a, b| {
+            let (along, across) = if is_x_face(face) { (b, a) } else { (a, b) };
             let q = 1.0 / (1.0 + along * along).sqrt();
             let along = atan_unit(along * FRAC_1_SQRT_2 as f32) * (0.5 / HALF_EDGE_RAD) as f32;
             let across = 0.5 * atan_unit(across * q) / atan_unit(q);
-            points.rest_u[k] = if is_x { across } else { along };
-            points.rest_v[k] = if is_x { along } else { across };
-        }
+            if is_x_face(face) { (across, along) } else { (along, across) }
+        });
     }
 
     fn line(_: usize, coordinate: f64) -> Line {

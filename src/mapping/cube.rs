@@ -2,10 +2,10 @@
 
 use super::chart::{to_signed, to_unit};
 use super::cube_face::{
-    self, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, largest_component,
+    self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, largest_component,
 };
 use super::{
-    ChartPoint, Convention, DirLanes, LANES, Lane, Line, Mapping, MappingInfo, PointLanes, Step,
+    ChartPoint, Convention, DirLanes, Lane, Line, Mapping, MappingInfo, PointLanes, Step,
 };
 use crate::math::{Real, Vec3};
 
@@ -42,13 +42,7 @@ impl Mapping for Cube {
 
     #[inline(always)]
     fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
-        points.base_u.fill(0.5);
-        points.base_v.fill(0.5);
-        for k in 0..LANES {
-            let (face, a, b) = gnomonic_lane(dirs.x[k], dirs.y[k], dirs.z[k]);
-            points.chart[k] = face;
-            (points.rest_u[k], points.rest_v[k]) = (0.5 * a, 0.5 * b);
-        }
+        face_lanes(dirs, points, gnomonic_lane, |_, a, b| (0.5 * a, 0.5 * b));
     }
 
     fn line(_: usize, coordinate: f64) -> Line {

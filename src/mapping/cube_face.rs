@@ -7,7 +7,7 @@
 //! rounded dot products leave holes.
 
 use super::chart::to_signed;
-use super::{DirLanes, LANES, Layout, MappingInfo, Step};
+use super::{DirLanes, LANES, Layout, MappingInfo, PointLanes, Step};
 use crate::math::{Real, Vec3};
 
 /// Names of the six charts.
@@ -317,6 +317,23 @@ fn on_face(face: u32, x: f32, y: f32, z: f32) -> (u32, f32, f32) {
     let down = if is_negative & is_y { -down } else { down };
     let inverse = 1.0 / along.abs();
     (face, across * inverse, down * inverse)
+}
+
+/// Chart points of many directions: their faces and gnomonic places by `choose`, and u - 1/2 and v - 1/2 there by `place`.
+#[inline(always)]
+pub fn face_lanes(
+    dirs: &DirLanes,
+    points: &mut PointLanes,
+    choose: impl Fn(f32, f32, f32) -> (u32, f32, f32),
+    place: impl Fn(u32, f32, f32) -> (f32, f32),
+) {
+    points.base_u.fill(0.5);
+    points.base_v.fill(0.5);
+    for k in 0..LANES {
+        let (face, a, b) = choose(dirs.x[k], dirs.y[k], dirs.z[k]);
+        points.chart[k] = face;
+        (points.rest_u[k], points.rest_v[k]) = place(face, a, b);
+    }
 }
 
 /// Directions of a row of a face from (sc, tc, ma) of each lane: [`from_frame`].

@@ -1,9 +1,9 @@
 //! Equi-angular cube: each face is divided by angle instead of by tangent.
 
 use super::cube_face::{
-    self, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, largest_component,
+    self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, largest_component,
 };
-use super::{ChartPoint, DirLanes, LANES, Lane, Line, Mapping, MappingInfo, PointLanes, Step};
+use super::{ChartPoint, DirLanes, Lane, Line, Mapping, MappingInfo, PointLanes, Step};
 use crate::math::{Real, Vec3, atan_unit};
 use std::f64::consts::FRAC_1_PI;
 
@@ -36,14 +36,10 @@ impl Mapping for Eac {
 
     #[inline(always)]
     fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
-        points.base_u.fill(0.5);
-        points.base_v.fill(0.5);
-        for k in 0..LANES {
-            let (face, a, b) = gnomonic_lane(dirs.x[k], dirs.y[k], dirs.z[k]);
-            points.chart[k] = face;
+        face_lanes(dirs, points, gnomonic_lane, |_, a, b| {
             let place = |c: f32| atan_unit(c) * (2.0 * FRAC_1_PI) as f32;
-            (points.rest_u[k], points.rest_v[k]) = (place(a), place(b));
-        }
+            (place(a), place(b))
+        });
     }
 
     fn line(_: usize, coordinate: f64) -> Line {

@@ -157,7 +157,7 @@ fn other_shapes_are_named() {
     let pixels = [[1.0; 3]; 64];
     let error = open(&hdr("-Y 8 +X 8", &pixels)).unwrap_err().to_string();
     assert!(
-        error.contains("8 x 8") && error.contains("only latlong"),
+        error.contains("8 x 8") && error.contains("`sixfold convert`"),
         "{error}"
     );
     let error = open(&hdr("-Y 0 +X 0", &[])).unwrap_err().to_string();
