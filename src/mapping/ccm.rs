@@ -11,7 +11,9 @@
 mod appendix_b;
 mod paper;
 
-use super::cube_face::{self, face_lanes, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane};
+use super::cube_face::{
+    self, face_lanes, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane,
+};
 use super::{ChartPoint, Convention, Erratum, EvaluatorInfo, Mapping, MappingInfo, Step};
 use super::{DirLanes, Lane, Line, PointLanes};
 use crate::math::{Real, Vec3, atan_unit, sin_cos_eighth};
@@ -97,7 +99,11 @@ impl Mapping for Ccm {
             let q = 1.0 / (1.0 + along * along).sqrt();
             let along = atan_unit(along * FRAC_1_SQRT_2 as f32) * (0.5 / HALF_EDGE_RAD) as f32;
             let across = 0.5 * atan_unit(across * q) / atan_unit(q);
-            if is_x_face(face) { (across, along) } else { (along, across) }
+            if is_x_face(face) {
+                (across, along)
+            } else {
+                (along, across)
+            }
         });
     }
 

@@ -4,9 +4,7 @@ use super::chart::{to_signed, to_unit};
 use super::cube_face::{
     self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, largest_component,
 };
-use super::{
-    ChartPoint, Convention, DirLanes, Lane, Line, Mapping, MappingInfo, PointLanes, Step,
-};
+use super::{ChartPoint, Convention, DirLanes, Lane, Line, Mapping, MappingInfo, PointLanes, Step};
 use crate::math::{Real, Vec3};
 
 /// See the [module](self).
