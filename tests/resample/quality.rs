@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::fixtures::*;
-use sixfold::imaging::resample::{Conversion, Filter, FilteredIn};
+use sixfold::imaging::resample::{Conversion, Filter, FilteredIn, Isa};
 use sixfold::imaging::{Channels, EnvironmentMap, Raster, Samples, Transfer};
 use sixfold::mapping::{Layout, MappingId};
 use sixfold::math::Vec3;
@@ -178,4 +178,59 @@ fn bytes_are_rounded_and_not_biased() {
     budgets.hold("dithered, largest error in steps", worst, 1.09);
     budgets.within("dithered, mean error in steps", mean, 4e-3);
     budgets.check();
+}
+
+/// The vector instructions change nothing: products and sums are not contracted, so every set gives the same bits; and a lookup of
+/// many texels at once is one of single texels, but for a thousandth of a texel.
+#[test]
+fn every_instruction_set_gives_the_same_samples() {
+    let latlong = noise([514, 257], Transfer::Linear);
+    let cube = {
+        let mut conversion = conversion(
+            latlong.shape(),
+            MappingId::Cube,
+            [130, 130],
+            Filter::Bilinear,
+        );
+        conversion.samples = sixfold::imaging::SampleKind::F32;
+        run(&latlong, &conversion).0
+    };
+    for source in [&latlong, &cube] {
+        for mapping in [
+            MappingId::Latlong,
+            MappingId::Cube,
+            MappingId::Ccm,
+            MappingId::Eac,
+        ] {
+            let mut wanted = conversion(source.shape(), mapping, [150, 150], Filter::Bilinear);
+            let with = |isa, wanted: &Conversion| {
+                let mut wanted = wanted.clone();
+                wanted.isa = Some(isa);
+                run(source, &wanted).0
+            };
+            let baseline = with(Isa::Baseline, &wanted);
+            for isa in [Isa::Avx2, Isa::Avx512] {
+                assert_eq!(with(isa, &wanted), baseline, "{mapping} by {}", isa.id());
+            }
+            wanted.rotation =
+                sixfold::math::Rotation::from_degrees([0.1, 0.0, 0.0]).source_from_world();
+            assert_ne!(with(Isa::Baseline, &wanted), baseline, "{mapping}");
+            if source.shape().mapping != MappingId::Latlong || mapping == MappingId::Latlong {
+                continue;
+            }
+            // So little that nothing moves, but the poles are tipped: the exact way.
+            wanted.rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 1e-13], [0.0, -1e-13, 1.0]];
+            let exact = with(Isa::Baseline, &wanted);
+            for (chart, texel, _) in texels(exact.shape()) {
+                let (exact, fast) = (exact.light(chart, texel), baseline.light(chart, texel));
+                for (exact, fast) in exact.into_iter().zip(fast) {
+                    // One step where a value lies half-way between two.
+                    assert!(
+                        (exact - fast).abs() < 1.5 / 255.0,
+                        "{mapping} {chart} {texel:?}"
+                    );
+                }
+            }
+        }
+    }
 }

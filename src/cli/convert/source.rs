@@ -106,7 +106,10 @@ pub(super) fn look(
     let mut text = "mapping\tlayout\tframe\tseams\twhy\n".to_owned();
     text.extend(opened.proposals.iter().map(line));
     if let Some(solution) = solve(opened.map.shape(), opened.map.rasters()) {
-        text.push_str(&format!("{}\n{}\n", solution.sentence(), solution.option()));
+        text.push_str(&format!("{}\n", solution.sentence()));
+        if solution.is_certain {
+            text.push_str(&format!("{}\n", solution.option()));
+        }
     }
     text.extend(opened.notes.iter().map(|note| format!("{note}\n")));
     Ok(text)

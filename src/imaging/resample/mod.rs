@@ -81,6 +81,15 @@ pub enum ResampleError {
     /// The source is not of the shape that the plan was made for.
     #[error("the frame is not like the first one: {0}; convert it by itself")]
     OtherShape(String),
+    /// More than any reader here would open again.
+    #[error(
+        "a picture of {bytes} bytes is too large, the limit is {}; choose a smaller size, or a file a face",
+        super::load::MOST_RASTER_BYTES
+    )]
+    TooManyBytes {
+        /// Bytes of one picture.
+        bytes: u64,
+    },
     /// No room.
     #[error("there is no memory for {bytes} bytes; choose a smaller size or close something")]
     OutOfMemory {

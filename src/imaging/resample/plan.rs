@@ -14,6 +14,7 @@ use super::report::{Report, Skipped};
 use super::stored::{Decoder, Stored, Working};
 use super::strips::{Threads, fill};
 use super::texels::{Gutter, Texels};
+use crate::imaging::load::MOST_RASTER_BYTES;
 use crate::imaging::{
     Channels, EnvironmentMap, MapShape, Progress, Raster, SampleKind, Samples, Stage, Transfer,
 };
@@ -275,6 +276,10 @@ fn black(size: [u32; 2], shape: &MapShape) -> Result<Raster, ResampleError> {
         Some(T::samples(list))
     }
     let count = size.map(u64::from).iter().product::<u64>() * shape.channels.count() as u64;
+    let bytes = count * shape.samples.bytes() as u64;
+    if bytes > MOST_RASTER_BYTES {
+        return Err(ResampleError::TooManyBytes { bytes });
+    }
     let samples = match shape.samples {
         SampleKind::U8 => zeros::<u8>(count),
         SampleKind::U16 => zeros::<u16>(count),
