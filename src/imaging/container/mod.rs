@@ -2,8 +2,8 @@
 //!
 //! | | order of the pictures | levels packed with |
 //! |---|---|---|
-//! | [`ktx2`] | level by level, the smallest first; in each the faces | nothing or Zstandard |
-//! | [`dds`] | face by face; in each the levels, the largest first | nothing |
+//! | `ktx2` | level by level, the smallest first; in each the faces | nothing or Zstandard |
+//! | `dds` | face by face; in each the levels, the largest first | nothing |
 //!
 //! Both hold 8 bits (sRGB or not), half, float and RGB9E5, and both lay faces out as the mapping `cube` does, in the order
 //! +x -x +y -y +z -z: seen from inside, t downwards, +x right, +y up, +z ahead.
