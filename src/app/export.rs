@@ -6,8 +6,8 @@ use crate::imaging::load::{EnvmapKind, Format};
 use crate::imaging::resample::{Conversion, chart_size, levels, resample};
 use crate::imaging::save::{Content, SaveOptions, save};
 use crate::imaging::{
-    Channels, Container, EnvironmentMap, Image, Level, Progress, Raster, SampleKind, Samples,
-    Stored, Transfer,
+    Channels, Container, EnvironmentMap, Image, Progress, Raster, SampleKind, Samples, Stored,
+    Transfer,
 };
 use crate::mapping::{Frame, Layout, MappingId};
 use crate::math::Rotation;
@@ -310,14 +310,7 @@ impl Export {
             } else {
                 vec![map]
             };
-            let level = |map: EnvironmentMap| Level {
-                rasters: map.into_parts().1,
-            };
-            let container = Container {
-                levels: maps.into_iter().map(level).collect(),
-                stored: self.stored,
-                format: self.format,
-            };
+            let container = Container::of_maps(maps, self.stored, self.format);
             return put(Path::new(&self.path), Content::Container(&container));
         }
         for (raster, path) in map.rasters().iter().zip(self.paths()) {

@@ -8,7 +8,7 @@ use super::report::Times;
 use super::task::{FilesOut, Target, Task};
 use crate::imaging::resample::{Conversion, Plan, Report, levels};
 use crate::imaging::save::{Content, SaveOptions, save};
-use crate::imaging::{Container, EnvironmentMap, Level, MapShape, Progress, Stored};
+use crate::imaging::{Container, EnvironmentMap, MapShape, Progress, Stored};
 
 /// Converts maps; a plan is remade only when the shape changes.
 pub(super) struct Converter<'a> {
@@ -114,14 +114,8 @@ impl FilesOut {
         } else {
             vec![map]
         };
-        let level = |map: EnvironmentMap| Level {
-            rasters: map.into_parts().1,
-        };
-        let container = Container {
-            levels: maps.into_iter().map(level).collect(),
-            stored: files.save.stored.unwrap_or(Stored::F32),
-            format: self.format,
-        };
+        let stored = files.save.stored.unwrap_or(Stored::F32);
+        let container = Container::of_maps(maps, stored, self.format);
         for path in &files.paths {
             write(path, Content::Container(&container))?;
         }

@@ -18,7 +18,7 @@ use self::texels::TexelFormat;
 use super::caught::caught;
 use super::load::{Format, LoadProblem, judged_bytes, judged_side, stop_if_cancelled};
 use super::save::Fault;
-use super::{Progress, Raster, Stage, Stored};
+use super::{EnvironmentMap, Progress, Raster, Stage, Stored};
 
 /// One size of all pictures.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +46,18 @@ pub struct Container {
 }
 
 impl Container {
+    /// Maps of halving sizes, the largest first, each with a picture for each chart.
+    pub fn of_maps(maps: Vec<EnvironmentMap>, stored: Stored, format: Format) -> Self {
+        let level = |map: EnvironmentMap| Level {
+            rasters: map.into_parts().1,
+        };
+        Self {
+            levels: maps.into_iter().map(level).collect(),
+            stored,
+            format,
+        }
+    }
+
     /// Whether it has six faces.
     pub fn is_cube(&self) -> bool {
         self.levels
