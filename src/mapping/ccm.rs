@@ -14,7 +14,7 @@ mod paper;
 use super::cube_face::{
     self, face_lanes, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane,
 };
-use super::{AngleLanes, DirLanes, LANES, Lane, Line, PointLanes};
+use super::{AngleLanes, DirLanes, Lane, Line, PointLanes};
 use super::{ChartPoint, Convention, Erratum, EvaluatorInfo, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3, atan_unit, sin_cos_eighth};
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, PI, SQRT_2};
@@ -144,8 +144,8 @@ impl Mapping for Ccm {
     #[inline(always)]
     fn latitude_lanes(columns: [&Lane; 4], row: Line, latitudes: &mut AngleLanes) {
         latitudes.base.fill(0.0);
-        for k in 0..LANES {
-            latitudes.rest[k] = -row[3] * columns[2][k];
+        for (rest, column) in latitudes.rest.iter_mut().zip(columns[2]) {
+            *rest = -row[3] * column;
         }
     }
 
