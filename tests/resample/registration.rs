@@ -51,15 +51,13 @@ fn place_of(shape: &MapShape, point: ChartPoint<f64>) -> Where {
         MappingId::Sphere | MappingId::Matcap => radius > 0.9,
         // So are the poles.
         MappingId::CylindricalEqualArea => (point.v - 0.5).abs() > 0.4,
-        // The octahedron's edges are creases; around its upper and lower tips the second map is a cone.
-        MappingId::OctahedralEqualArea if shape.mapping.continued(point).y.abs() > 0.98 => true,
-        MappingId::Octahedral | MappingId::OctahedralEqualArea => {
-            let dirs = four.map(|p| shape.mapping.continued(p).to_f64());
-            (0..3).any(|i| dirs.iter().any(|d| d[i] >= 0.0) && dirs.iter().any(|d| d[i] <= 0.0))
-        }
+        // Around its upper and lower tips the second map is a cone.
+        MappingId::OctahedralEqualArea => shape.mapping.continued(point).y.abs() > 0.98,
         _ => false,
     };
-    let missing = four.map(|p| shape.mapping.inverse(p).is_none());
+    let facet = shape.mapping.facet(point);
+    let missing =
+        four.map(|p| shape.mapping.inverse(p).is_none() || shape.mapping.facet(p) != facet);
     let out = |i: usize| first[i] < 0.0 || first[i] > f64::from(shape.size[i]) - 2.0;
     match (is_singular, missing.contains(&true), out(0), out(1)) {
         (true, ..) => Where::Singular,

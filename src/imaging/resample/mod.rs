@@ -31,6 +31,7 @@ mod grid;
 mod lane_places;
 mod levels;
 mod lookups;
+mod parts;
 mod plan;
 mod report;
 mod simd;

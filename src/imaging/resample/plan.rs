@@ -65,19 +65,22 @@ impl Plan {
             Layout::Faces => vec![conversion.size; target.charts.iter().flatten().count()],
             layout => MapShape::raster_sizes(conversion.mapping, layout, conversion.size),
         };
-        let geometry = Geometry::new(source, &target, conversion);
+        let mut geometry = Geometry::new(source, &target, conversion);
         let survey = Survey::of(&geometry, &target);
         let filter = conversion.filter.unwrap_or(if survey.minifies {
             Filter::Area
         } else {
             Filter::Bicubic
         });
+        if filter == Filter::Nearest {
+            geometry.do_not_divide();
+        }
         Ok(Self {
             source: source.clone(),
             pictures,
             conversion: conversion.clone(),
             filter,
-            gutter: Gutter::new(&Grid::of(source), reach(filter)),
+            gutter: Gutter::new(&geometry.source, reach(filter)),
             lanes: LanePlaces::new(&geometry, conversion.isa.unwrap_or(Isa::Avx512).available()),
             geometry,
             threads: Threads::new(conversion.threads),

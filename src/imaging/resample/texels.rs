@@ -3,6 +3,7 @@
 use super::filter::Mix;
 use super::grid::Grid;
 use super::lookups::Lookups;
+use super::parts::{PartRow, part_rows};
 use super::stored::{Decoder, Stored};
 use crate::imaging::{EnvironmentMap, MapShape, Placement};
 use crate::mapping::ChartPoint;
@@ -40,31 +41,31 @@ impl Strides {
     }
 }
 
-/// One row of a chart with its gutter.
-#[derive(Clone, Debug)]
-struct Row {
-    /// Columns whose texels the chart has.
-    own: Range<i32>,
-    /// Columns that a filter may ask for.
-    reached: Range<i32>,
-    /// Index of the first gutter texel left of the chart's own, and right of it.
-    left: usize,
-    right: usize,
-}
-
-/// Which texels beyond the charts a filter asks for, and where their light comes from. Depends on shapes alone.
+/// Which texels beyond the map's parts (see [`Grid::part`]) a filter asks for, and where their light comes from. Depends on
+/// shapes alone.
 ///
 /// A gutter texel stands for the direction that the mapping's inverse continues to; its light is found where that direction
-/// really lies. Rows hold what is reached less what the chart owns, so the memory is that of the seams: 20 bytes a texel, and 16
+/// really lies. Rows hold what is reached less what the part owns, so the memory is that of the seams: 20 bytes a texel, and 16
 /// for its light.
 #[derive(Clone, Debug)]
 pub(super) struct Gutter {
     reach: i32,
+    size: [u32; 2],
+    facets: u32,
+    /// Of each facet the rows from `reach` above the chart to `reach` below it.
     rows: Vec<Row>,
     /// Gutter texels of one chart.
     per_chart: usize,
     /// Where each gutter texel of each chart is looked up.
     lookups: Lookups,
+}
+
+/// A part's row, and the indices of its gutter's first texels left and right of its own.
+#[derive(Clone, Debug)]
+struct Row {
+    texels: PartRow,
+    left: usize,
+    right: usize,
 }
 
 /// A texel of a chart: one of its own, or one of the gutter.
@@ -77,25 +78,17 @@ enum Slot {
 }
 
 impl Gutter {
-    /// The gutter of charts for filters that reach `reach` texels beyond the place.
+    /// The gutter of a map's parts for filters that reach `reach` texels beyond the place.
     pub fn new(grid: &Grid, reach: i32) -> Self {
         let mut per_chart = 0;
-        let rows: Vec<Row> = (-reach..grid.size[1] as i32 + reach)
-            .map(|row| {
-                let reached = grid.reached(row, reach);
-                let own = grid.owned(row);
-                let own = if own.is_empty() {
-                    reached.end..reached.end
-                } else {
-                    own
-                };
-                let reached = reached.start.min(own.start)..reached.end.max(own.end);
+        let rows: Vec<Row> = part_rows(grid, reach)
+            .into_iter()
+            .map(|texels| {
                 let left = per_chart;
-                let right = left + (own.start - reached.start) as usize;
-                per_chart = right + (reached.end - own.end) as usize;
+                let right = left + (texels.own.start - texels.reached.start) as usize;
+                per_chart = right + (texels.reached.end - texels.own.end) as usize;
                 Row {
-                    own,
-                    reached,
+                    texels,
                     left,
                     right,
                 }
@@ -104,63 +97,82 @@ impl Gutter {
         let charts = grid.mapping.info().chart_count();
         let mut lookups = Lookups::default();
         lookups.resize(per_chart * charts as usize);
+        let height = grid.size[1] as usize + 2 * reach as usize;
         let mut index = 0;
         for chart in 0..charts {
-            for (row, y) in rows.iter().zip(-reach..) {
-                for x in (row.reached.start..row.own.start).chain(row.own.end..row.reached.end) {
-                    // A chart of few texels has a gutter wider than the chart: the inverse goes on for half a chart only.
-                    let coordinate = |side, place: i32| {
-                        grid.coordinate(side, f64::from(place)).clamp(-0.45, 1.45)
-                    };
-                    let point = ChartPoint::new(chart, coordinate(0, x), coordinate(1, y));
-                    let found = grid.mapping.forward(grid.mapping.continued(point));
-                    lookups.set(
-                        index,
-                        found.map(|found| super::geometry::Place {
-                            chart: found.chart,
-                            at: [grid.place(0, found.u), grid.place(1, found.v)],
-                        }),
-                    );
-                    index += 1;
+            for (facet, rows) in (0..).zip(rows.chunks(height)) {
+                for (row, y) in rows.iter().zip(-reach..) {
+                    for x in row.texels.gutter() {
+                        // A chart of few texels has a gutter wider than the chart: the inverse goes on for half a chart only.
+                        let coordinate = |side, place: i32| {
+                            grid.coordinate(side, f64::from(place)).clamp(-0.45, 1.45)
+                        };
+                        let point = ChartPoint::new(chart, coordinate(0, x), coordinate(1, y));
+                        let found = grid.mapping.forward(grid.beyond(facet, point));
+                        lookups.set(index, found.map(|found| grid.found(found)));
+                        index += 1;
+                    }
                 }
             }
         }
         Self {
             reach,
+            size: grid.size,
+            facets: grid.facets,
             rows,
             per_chart,
             lookups,
         }
     }
 
-    /// Whether the block of texels is the chart's own.
-    fn owns(&self, columns: Range<i32>, rows: Range<i32>) -> bool {
-        // Own columns shrink towards the disc's top and bottom, so the first and the last row decide.
+    /// A row of a part; beyond those that are there, the nearest.
+    fn row(&self, facet: u32, row: i32) -> &Row {
+        let height = self.size[1] as i32 + 2 * self.reach;
+        let row = (row + self.reach).clamp(0, height - 1) as usize;
+        &self.rows[facet as usize * height as usize + row]
+    }
+
+    /// Chart and facet of a part.
+    fn chart(&self, part: u32) -> (u32, u32) {
+        if self.facets == 1 {
+            (part, 0)
+        } else {
+            (part / self.facets, part % self.facets)
+        }
+    }
+
+    /// Whether the block of texels is the part's own.
+    fn owns(&self, facet: u32, columns: Range<i32>, rows: Range<i32>) -> bool {
+        // Parts are convex, so the first and the last row decide. Rows beyond the gutter's own nothing.
         [rows.start, rows.end - 1].into_iter().all(|row| {
-            let index = usize::try_from(row + self.reach).ok();
-            index
-                .and_then(|index| self.rows.get(index))
-                .is_some_and(|row| row.own.start <= columns.start && columns.end <= row.own.end)
+            let own = &self.row(facet, row).texels.own;
+            (0..self.size[1] as i32).contains(&row)
+                && own.start <= columns.start
+                && columns.end <= own.end
         })
     }
 
-    fn slot(&self, chart: u32, column: i32, row: i32) -> Slot {
-        let last = self.rows.len() as i32 - 1;
-        let row = &self.rows[(row + self.reach).clamp(0, last) as usize];
-        if row.own.contains(&column) {
+    fn slot(&self, part: u32, column: i32, row: i32) -> Slot {
+        let (chart, facet) = self.chart(part);
+        let Row {
+            texels: PartRow { own, reached },
+            left,
+            right,
+        } = self.row(facet, row);
+        if own.contains(&column) {
             return Slot::Own;
         }
-        if row.reached.is_empty() {
+        if reached.is_empty() {
             return Slot::Beyond;
         }
-        let column = column.clamp(row.reached.start, row.reached.end - 1);
+        let column = column.clamp(reached.start, reached.end - 1);
         let chart = chart as usize * self.per_chart;
         Slot::Gutter(
             chart
-                + if column < row.own.start {
-                    row.left + (column - row.reached.start) as usize
+                + if column < own.start {
+                    left + (column - reached.start) as usize
                 } else {
-                    row.right + (column - row.own.end) as usize
+                    right + (column - own.end) as usize
                 },
         )
     }
@@ -224,20 +236,19 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
 
     /// The chart's own texel nearest to a gutter texel's place.
     fn nearest_own(&self, index: usize) -> Pixel {
-        let Gutter {
-            lookups,
-            rows,
-            reach,
-            ..
-        } = self.gutter;
-        let chart = lookups.chart[index];
-        if chart == Lookups::NOWHERE {
+        let Gutter { lookups, size, .. } = self.gutter;
+        if lookups.chart[index] == Lookups::NOWHERE {
             return [0.0; 4];
         }
+        let (chart, _) = self.gutter.chart(lookups.chart[index]);
         let next = |rest: f32| i32::from(rest >= 0.5);
-        let height = rows.len() as i32 - 2 * reach;
+        let [width, height] = size.map(|n| n as i32);
         let mut row = (lookups.row[index] + next(lookups.below[index])).clamp(0, height - 1);
-        let own = |row: i32| &rows[(row + reach) as usize].own;
+        let column = lookups.column[index] + next(lookups.right[index]);
+        if self.gutter.facets > 1 {
+            return self.own(chart, column.clamp(0, width - 1), row);
+        }
+        let own = |row: i32| &self.gutter.row(0, row).texels.own;
         // A disc's first and last rows may have no texel of their own, the middle row has.
         while own(row).is_empty() && row != height / 2 {
             row += (height / 2 - row).signum();
@@ -245,7 +256,6 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
         if own(row).is_empty() {
             return [0.0; 4];
         }
-        let column = lookups.column[index] + next(lookups.right[index]);
         self.own(chart, column.clamp(own(row).start, own(row).end - 1), row)
     }
 
@@ -279,15 +289,18 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
     /// put in its place, and what comes back to this texel is left out of the mean: that solves the pair.
     fn settled(&self, index: usize) -> Pixel {
         let mut mix = Mix::around(self.light[index]);
-        for (chart, [column, row], weight) in self.around(index) {
-            match self.gutter.slot(chart, column, row) {
-                Slot::Own => mix.add(self.own(chart, column, row), weight),
+        for (part, [column, row], weight) in self.around(index) {
+            match self.gutter.slot(part, column, row) {
+                Slot::Own => {
+                    let (chart, _) = self.gutter.chart(part);
+                    mix.add(self.own(chart, column, row), weight);
+                }
                 Slot::Gutter(other) if other == index => {}
                 Slot::Gutter(other) => {
-                    for (chart, [column, row], share) in self.around(other) {
-                        let slot = self.gutter.slot(chart, column, row);
+                    for (part, [column, row], share) in self.around(other) {
+                        let slot = self.gutter.slot(part, column, row);
                         if slot != Slot::Gutter(index) {
-                            mix.add(self.in_slot(slot, chart, column, row), weight * share);
+                            mix.add(self.in_slot(slot, part, column, row), weight * share);
                         }
                     }
                 }
@@ -318,24 +331,28 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
         }
     }
 
-    /// A texel of a chart or of its gutter.
-    pub fn texel(&self, chart: u32, column: i32, row: i32) -> Pixel {
-        self.in_slot(self.gutter.slot(chart, column, row), chart, column, row)
+    /// A texel of a part or of its gutter.
+    pub fn texel(&self, part: u32, column: i32, row: i32) -> Pixel {
+        self.in_slot(self.gutter.slot(part, column, row), part, column, row)
     }
 
-    fn in_slot(&self, slot: Slot, chart: u32, column: i32, row: i32) -> Pixel {
+    fn in_slot(&self, slot: Slot, part: u32, column: i32, row: i32) -> Pixel {
         match slot {
-            Slot::Own => self.own(chart, column, row),
+            Slot::Own => self.own(self.gutter.chart(part).0, column, row),
             Slot::Gutter(index) => self.light[index],
             Slot::Beyond => [0.0; 4],
         }
     }
 
     /// The K x K texels from (`column`, `row`) on, row by row.
-    pub fn block<const K: usize>(&self, chart: u32, column: i32, row: i32) -> [[Pixel; K]; K] {
+    pub fn block<const K: usize>(&self, part: u32, column: i32, row: i32) -> [[Pixel; K]; K] {
         let reach = K as i32;
         let mut block = [[[0.0; 4]; K]; K];
-        if self.gutter.owns(column..column + reach, row..row + reach) {
+        let (chart, facet) = self.gutter.chart(part);
+        if self
+            .gutter
+            .owns(facet, column..column + reach, row..row + reach)
+        {
             let Some(Some((samples, strides))) = self.charts.get(chart as usize) else {
                 return block;
             };
@@ -353,7 +370,7 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
         }
         for (line, row) in block.iter_mut().zip(row..) {
             for (pixel, column) in line.iter_mut().zip(column..) {
-                *pixel = self.texel(chart, column, row);
+                *pixel = self.texel(part, column, row);
             }
         }
         block
