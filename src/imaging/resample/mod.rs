@@ -32,6 +32,7 @@ mod lane_places;
 mod levels;
 mod lookups;
 mod parts;
+mod pieces;
 mod plan;
 mod report;
 mod simd;

@@ -12,7 +12,7 @@ use super::lane_places::LanePlaces;
 use super::lookups::Places;
 use super::report::{Report, Skipped};
 use super::stored::{Decoder, Stored, Working};
-use super::strips::{Threads, fill};
+use super::strips::{Kernel, Threads, fill};
 use super::texels::{Gutter, Texels};
 use crate::imaging::load::MOST_RASTER_BYTES;
 use crate::imaging::{
@@ -155,6 +155,23 @@ impl Plan {
         Ok(self.report())
     }
 
+    /// Fills a map by a kernel of its own.
+    pub(super) fn fill_by<K>(
+        &self,
+        target: &mut EnvironmentMap,
+        kernel: &K,
+        progress: &Progress,
+    ) -> Result<(), ResampleError>
+    where
+        K: Kernel<u8> + Kernel<u16> + Kernel<f32>,
+    {
+        match self.target.samples {
+            SampleKind::U8 => fill::<u8>(target, kernel, &self.threads, progress),
+            SampleKind::U16 => fill::<u16>(target, kernel, &self.threads, progress),
+            SampleKind::F32 => fill::<f32>(target, kernel, &self.threads, progress),
+        }
+    }
+
     fn run_from<S: Stored, const N: usize>(
         &self,
         source: &EnvironmentMap,
@@ -200,7 +217,7 @@ impl Plan {
             && !self.conversion.dither
     }
 
-    fn encoder(&self) -> Encoder {
+    pub(super) fn encoder(&self) -> Encoder {
         Encoder {
             working: self.working(),
             transfer: self.target.transfer,
@@ -229,14 +246,10 @@ impl Plan {
             sampler,
             encoder: self.encoder(),
         };
-        match self.target.samples {
-            SampleKind::U8 => fill::<u8>(target, &kernel, &self.threads, progress),
-            SampleKind::U16 => fill::<u16>(target, &kernel, &self.threads, progress),
-            SampleKind::F32 => fill::<f32>(target, &kernel, &self.threads, progress),
-        }
+        self.fill_by(target, &kernel, progress)
     }
 
-    fn working(&self) -> Working {
+    pub(super) fn working(&self) -> Working {
         Working::of(self.source.transfer, self.conversion.filtered_in)
     }
 

@@ -324,7 +324,8 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
         pixel
     }
 
-    fn own(&self, chart: u32, column: i32, row: i32) -> Pixel {
+    /// A texel of a chart.
+    pub fn own(&self, chart: u32, column: i32, row: i32) -> Pixel {
         match self.charts.get(chart as usize) {
             Some(Some((samples, strides))) => self.pixel(samples, strides.at(column, row)),
             _ => [0.0; 4],
