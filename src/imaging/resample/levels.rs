@@ -3,11 +3,12 @@
 use super::encode::Encoder;
 use super::filter::Mix;
 use super::grid::Grid;
+use super::gutter::Gutter;
 use super::pieces::Pieces;
 use super::plan::Plan;
 use super::stored::{Decoder, Stored};
 use super::strips::{Kernel, Run, Scratch};
-use super::texels::{Gutter, Texels};
+use super::texels::Texels;
 use super::{Conversion, Filter, ResampleError};
 use crate::imaging::{Channels, EnvironmentMap, MapShape, Progress, SampleKind, Siting, Stage};
 use crate::mapping::Domain;

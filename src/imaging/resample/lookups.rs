@@ -36,11 +36,6 @@ impl Lookups {
         self.below.resize(count, 0.0);
     }
 
-    /// How many places there are.
-    pub fn len(&self) -> usize {
-        self.chart.len()
-    }
-
     /// Puts a place, or nowhere, at an index.
     pub fn set(&mut self, index: usize, place: Option<Place>) {
         let Some(place) = place else {

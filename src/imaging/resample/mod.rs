@@ -28,6 +28,7 @@ mod fused;
 mod general;
 mod geometry;
 mod grid;
+mod gutter;
 mod lane_places;
 mod levels;
 mod lookups;

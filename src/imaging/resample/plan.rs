@@ -8,12 +8,13 @@ use super::fused::Fused;
 use super::general::{General, Way};
 use super::geometry::Geometry;
 use super::grid::Grid;
+use super::gutter::Gutter;
 use super::lane_places::LanePlaces;
 use super::lookups::Places;
 use super::report::{Report, Skipped};
 use super::stored::{Decoder, Stored, Working};
 use super::strips::{Kernel, Threads, fill};
-use super::texels::{Gutter, Texels};
+use super::texels::Texels;
 use crate::imaging::load::MOST_RASTER_BYTES;
 use crate::imaging::{
     Channels, EnvironmentMap, MapShape, Progress, Raster, SampleKind, Samples, Stage, Transfer,

@@ -1,13 +1,9 @@
-//! The source's texels where they lie, and the gutter around them.
+//! The source's texels where they lie, and the light of the gutter around them.
 
 use super::filter::Mix;
-use super::grid::Grid;
-use super::lookups::Lookups;
-use super::parts::{PartRow, part_rows};
+use super::gutter::{Gutter, Slot};
 use super::stored::{Decoder, Stored};
 use crate::imaging::{EnvironmentMap, MapShape, Placement};
-use crate::mapping::ChartPoint;
-use std::ops::Range;
 
 /// Where the pixels of a chart lie in a picture: sample 0 of the pixel of texel (0, 0), and the steps to the next texel to the
 /// right and to the one below, all in samples.
@@ -41,143 +37,6 @@ impl Strides {
     }
 }
 
-/// Which texels beyond the map's parts (see [`Grid::part`]) a filter asks for, and where their light comes from. Depends on
-/// shapes alone.
-///
-/// A gutter texel stands for the direction that the mapping's inverse continues to; its light is found where that direction
-/// really lies. Rows hold what is reached less what the part owns, so the memory is that of the seams: 20 bytes a texel, and 16
-/// for its light.
-#[derive(Clone, Debug)]
-pub(super) struct Gutter {
-    reach: i32,
-    size: [u32; 2],
-    facets: u32,
-    /// Of each facet the rows from `reach` above the chart to `reach` below it.
-    rows: Vec<Row>,
-    /// Gutter texels of one chart.
-    per_chart: usize,
-    /// Where each gutter texel of each chart is looked up.
-    lookups: Lookups,
-}
-
-/// A part's row, and the indices of its gutter's first texels left and right of its own.
-#[derive(Clone, Debug)]
-struct Row {
-    texels: PartRow,
-    left: usize,
-    right: usize,
-}
-
-/// A texel of a chart: one of its own, or one of the gutter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Slot {
-    Own,
-    Gutter(usize),
-    /// Nothing reaches there.
-    Beyond,
-}
-
-impl Gutter {
-    /// The gutter of a map's parts for filters that reach `reach` texels beyond the place.
-    pub fn new(grid: &Grid, reach: i32) -> Self {
-        let mut per_chart = 0;
-        let rows: Vec<Row> = part_rows(grid, reach)
-            .into_iter()
-            .map(|texels| {
-                let left = per_chart;
-                let right = left + (texels.own.start - texels.reached.start) as usize;
-                per_chart = right + (texels.reached.end - texels.own.end) as usize;
-                Row {
-                    texels,
-                    left,
-                    right,
-                }
-            })
-            .collect();
-        let charts = grid.mapping.info().chart_count();
-        let mut lookups = Lookups::default();
-        lookups.resize(per_chart * charts as usize);
-        let height = grid.size[1] as usize + 2 * reach as usize;
-        let mut index = 0;
-        for chart in 0..charts {
-            for (facet, rows) in (0..).zip(rows.chunks(height)) {
-                for (row, y) in rows.iter().zip(-reach..) {
-                    for x in row.texels.gutter() {
-                        // A chart of few texels has a gutter wider than the chart: the inverse goes on for half a chart only.
-                        let coordinate = |side, place: i32| {
-                            grid.coordinate(side, f64::from(place)).clamp(-0.45, 1.45)
-                        };
-                        let point = ChartPoint::new(chart, coordinate(0, x), coordinate(1, y));
-                        let found = grid.mapping.forward(grid.beyond(facet, point));
-                        lookups.set(index, found.map(|found| grid.found(found)));
-                        index += 1;
-                    }
-                }
-            }
-        }
-        Self {
-            reach,
-            size: grid.size,
-            facets: grid.facets,
-            rows,
-            per_chart,
-            lookups,
-        }
-    }
-
-    /// A row of a part; beyond those that are there, the nearest.
-    fn row(&self, facet: u32, row: i32) -> &Row {
-        let height = self.size[1] as i32 + 2 * self.reach;
-        let row = (row + self.reach).clamp(0, height - 1) as usize;
-        &self.rows[facet as usize * height as usize + row]
-    }
-
-    /// Chart and facet of a part.
-    fn chart(&self, part: u32) -> (u32, u32) {
-        if self.facets == 1 {
-            (part, 0)
-        } else {
-            (part / self.facets, part % self.facets)
-        }
-    }
-
-    /// Whether the block of texels is the part's own.
-    fn owns(&self, facet: u32, columns: Range<i32>, rows: Range<i32>) -> bool {
-        // Parts are convex, so the first and the last row decide. Rows beyond the gutter's own nothing.
-        [rows.start, rows.end - 1].into_iter().all(|row| {
-            let own = &self.row(facet, row).texels.own;
-            (0..self.size[1] as i32).contains(&row)
-                && own.start <= columns.start
-                && columns.end <= own.end
-        })
-    }
-
-    fn slot(&self, part: u32, column: i32, row: i32) -> Slot {
-        let (chart, facet) = self.chart(part);
-        let Row {
-            texels: PartRow { own, reached },
-            left,
-            right,
-        } = self.row(facet, row);
-        if own.contains(&column) {
-            return Slot::Own;
-        }
-        if reached.is_empty() {
-            return Slot::Beyond;
-        }
-        let column = column.clamp(reached.start, reached.end - 1);
-        let chart = chart as usize * self.per_chart;
-        Slot::Gutter(
-            chart
-                + if column < own.start {
-                    left + (column - reached.start) as usize
-                } else {
-                    right + (column - own.end) as usize
-                },
-        )
-    }
-}
-
 /// Sweeps over the gutter, each finding every texel's light again from the others'. A square chart's gutter needs two, since
 /// its texels lie over texels that the neighbour owns, or over its gutter at a corner; along rims a fourth changes the sixth digit.
 const SWEEPS: u32 = 4;
@@ -191,7 +50,7 @@ pub(super) struct Texels<'a, S, const N: usize> {
     decoder: Decoder,
     gutter: &'a Gutter,
     /// Light of the gutter's texels.
-    light: Vec<Pixel>,
+    light: Vec<[f32; N]>,
 }
 
 impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
@@ -213,91 +72,56 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
             charts: charts.collect(),
             decoder,
             gutter,
-            light: vec![[0.0; 4]; gutter.lookups.len()],
+            light: vec![[0.0; N]; gutter.len()],
         };
         texels.fill_gutter(is_nearest);
         texels
     }
 
     fn fill_gutter(&mut self, is_nearest: bool) {
-        let count = self.gutter.lookups.len();
+        let count = self.gutter.len();
         for index in 0..count {
-            self.light[index] = self.nearest_own(index);
+            if let Some((chart, [column, row])) = self.gutter.nearest_own(index) {
+                self.light[index] = stored(self.own(chart, column, row));
+            }
         }
         if is_nearest {
             return;
         }
-        for _ in 0..SWEEPS {
-            for index in 0..count {
-                self.light[index] = self.settled(index);
+        // Most lie between texels that charts own: what they get at first is final.
+        let mut others = Vec::new();
+        for index in 0..count {
+            let (light, is_final) = self.settled(index);
+            self.light[index] = stored(light);
+            if !is_final {
+                others.push(index as u32);
             }
         }
-    }
-
-    /// The chart's own texel nearest to a gutter texel's place.
-    fn nearest_own(&self, index: usize) -> Pixel {
-        let Gutter { lookups, size, .. } = self.gutter;
-        if lookups.chart[index] == Lookups::NOWHERE {
-            return [0.0; 4];
+        for _ in 1..SWEEPS {
+            for index in others.iter().map(|index| *index as usize) {
+                self.light[index] = stored(self.settled(index).0);
+            }
         }
-        let (chart, _) = self.gutter.chart(lookups.chart[index]);
-        let next = |rest: f32| i32::from(rest >= 0.5);
-        let [width, height] = size.map(|n| n as i32);
-        let mut row = (lookups.row[index] + next(lookups.below[index])).clamp(0, height - 1);
-        let column = lookups.column[index] + next(lookups.right[index]);
-        if self.gutter.facets > 1 {
-            return self.own(chart, column.clamp(0, width - 1), row);
-        }
-        let own = |row: i32| &self.gutter.row(0, row).texels.own;
-        // A disc's first and last rows may have no texel of their own, the middle row has.
-        while own(row).is_empty() && row != height / 2 {
-            row += (height / 2 - row).signum();
-        }
-        if own(row).is_empty() {
-            return [0.0; 4];
-        }
-        self.own(chart, column.clamp(own(row).start, own(row).end - 1), row)
-    }
-
-    /// The four texels around a gutter texel's place, and their weights.
-    fn around(&self, index: usize) -> impl Iterator<Item = (u32, [i32; 2], f32)> {
-        let lookups = &self.gutter.lookups;
-        let (chart, column, row) = (
-            lookups.chart[index],
-            lookups.column[index],
-            lookups.row[index],
-        );
-        let (right, below) = (lookups.right[index], lookups.below[index]);
-        [(0, 0), (1, 0), (0, 1), (1, 1)]
-            .into_iter()
-            .filter_map(move |(x, y)| {
-                let across = if x == 0 { 1.0 - right } else { right };
-                let down = if y == 0 { 1.0 - below } else { below };
-                let weight = across * down;
-                (weight > 0.0 && chart != Lookups::NOWHERE).then_some((
-                    chart,
-                    [column + x, row + y],
-                    weight,
-                ))
-            })
     }
 
     /// The light of a gutter texel, as between the four texels around its place.
     ///
     /// Just beyond a rim, the texels around that place lie just beyond the other side's rim, and theirs is this texel again.
     /// Passing light to and fro between the two would take for ever, so where a texel of the gutter comes in, its own four are
-    /// put in its place, and what comes back to this texel is left out of the mean: that solves the pair.
-    fn settled(&self, index: usize) -> Pixel {
-        let mut mix = Mix::around(self.light[index]);
-        for (part, [column, row], weight) in self.around(index) {
+    /// put in its place, and what comes back to this texel is left out of the mean: that solves the pair. Also tells whether no texel of the gutter came in.
+    fn settled(&self, index: usize) -> (Pixel, bool) {
+        let mut mix = Mix::around(self.in_gutter(index));
+        let mut is_final = true;
+        for (part, [column, row], weight) in self.gutter.around(index) {
             match self.gutter.slot(part, column, row) {
                 Slot::Own => {
                     let (chart, _) = self.gutter.chart(part);
                     mix.add(self.own(chart, column, row), weight);
                 }
-                Slot::Gutter(other) if other == index => {}
+                Slot::Gutter(other) if other == index => is_final = false,
                 Slot::Gutter(other) => {
-                    for (part, [column, row], share) in self.around(other) {
+                    is_final = false;
+                    for (part, [column, row], share) in self.gutter.around(other) {
                         let slot = self.gutter.slot(part, column, row);
                         if slot != Slot::Gutter(index) {
                             mix.add(self.in_slot(slot, part, column, row), weight * share);
@@ -307,7 +131,13 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
                 Slot::Beyond => {}
             }
         }
-        mix.mean()
+        (mix.mean(), is_final)
+    }
+
+    fn in_gutter(&self, index: usize) -> Pixel {
+        let mut pixel = [0.0, 0.0, 0.0, 1.0];
+        pixel[..N].copy_from_slice(&self.light[index]);
+        pixel
     }
 
     fn pixel(&self, samples: &[S], at: usize) -> Pixel {
@@ -340,7 +170,7 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
     fn in_slot(&self, slot: Slot, part: u32, column: i32, row: i32) -> Pixel {
         match slot {
             Slot::Own => self.own(self.gutter.chart(part).0, column, row),
-            Slot::Gutter(index) => self.light[index],
+            Slot::Gutter(index) => self.in_gutter(index),
             Slot::Beyond => [0.0; 4],
         }
     }
@@ -376,4 +206,9 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
         }
         block
     }
+}
+
+/// What of a pixel a gutter texel keeps.
+fn stored<const N: usize>(pixel: Pixel) -> [f32; N] {
+    std::array::from_fn(|channel| pixel[channel])
 }
