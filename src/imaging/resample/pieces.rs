@@ -212,7 +212,7 @@ impl Pieces {
         const STEP: f64 = 1.0 / (1_u64 << 24) as f64;
         let across = edge.side / 2;
         let mut at = [self.sides[1 - across].coordinate(edge.segment, 0.5); 2];
-        at[across] = if edge.side % 2 == 0 {
+        at[across] = if edge.side.is_multiple_of(2) {
             -STEP
         } else {
             1.0 + STEP
@@ -241,7 +241,7 @@ impl Pieces {
     fn on_border(&self, edge: Edge) -> [usize; 2] {
         let across = edge.side / 2;
         let mut piece = [edge.segment; 2];
-        piece[across] = if edge.side % 2 == 0 {
+        piece[across] = if edge.side.is_multiple_of(2) {
             0
         } else {
             self.sides[across].len() - 1
