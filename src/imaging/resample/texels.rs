@@ -37,9 +37,12 @@ impl Strides {
     }
 }
 
-/// Sweeps over the gutter, each finding every texel's light again from the others'. A square chart's gutter needs two, since
-/// its texels lie over texels that the neighbour owns, or over its gutter at a corner; along rims a fourth changes the sixth digit.
+/// Sweeps over the gutter's texels whose light depends on others': at corners a second one is needed, along rims a fourth changes
+/// the sixth digit.
 const SWEEPS: u32 = 4;
+
+/// A gutter texel that gets less than this from others is not found again: what they change is below a float's last digit.
+const LITTLE: f32 = 1.0 / (1_u32 << 20) as f32;
 
 /// A colour to mix, and opacity. Not premultiplied.
 pub(super) type Pixel = [f32; 4];
@@ -88,7 +91,7 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
         if is_nearest {
             return;
         }
-        // Most lie between texels that charts own: what they get at first is final.
+        // Most lie between texels that charts own, or nearly: what they get at first is final.
         let mut others = Vec::new();
         for index in 0..count {
             let (light, is_final) = self.settled(index);
@@ -108,22 +111,25 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
     ///
     /// Just beyond a rim, the texels around that place lie just beyond the other side's rim, and theirs is this texel again.
     /// Passing light to and fro between the two would take for ever, so where a texel of the gutter comes in, its own four are
-    /// put in its place, and what comes back to this texel is left out of the mean: that solves the pair. Also tells whether no texel of the gutter came in.
+    /// put in its place, and what comes back to this texel is left out of the mean: that solves the pair. Also tells whether other
+    /// texels of the gutter still count for little.
     fn settled(&self, index: usize) -> (Pixel, bool) {
         let mut mix = Mix::around(self.in_gutter(index));
-        let mut is_final = true;
+        let mut open = 0.0;
         for (part, [column, row], weight) in self.gutter.around(index) {
             match self.gutter.slot(part, column, row) {
                 Slot::Own => {
                     let (chart, _) = self.gutter.chart(part);
                     mix.add(self.own(chart, column, row), weight);
                 }
-                Slot::Gutter(other) if other == index => is_final = false,
+                Slot::Gutter(other) if other == index => {}
                 Slot::Gutter(other) => {
-                    is_final = false;
                     for (part, [column, row], share) in self.gutter.around(other) {
                         let slot = self.gutter.slot(part, column, row);
                         if slot != Slot::Gutter(index) {
+                            if slot != Slot::Own {
+                                open += weight * share;
+                            }
                             mix.add(self.in_slot(slot, part, column, row), weight * share);
                         }
                     }
@@ -131,6 +137,7 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
                 Slot::Beyond => {}
             }
         }
+        let is_final = open <= LITTLE * mix.weight();
         (mix.mean(), is_final)
     }
 
