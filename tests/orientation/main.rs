@@ -7,3 +7,4 @@ mod opening;
 mod scenes;
 mod seams;
 mod solving;
+mod there_and_back;
