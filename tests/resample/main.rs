@@ -9,6 +9,7 @@
     reason = "tests say what they expect by unwrapping, and what they saw by printing"
 )]
 
+mod analytic;
 mod constants;
 mod fixtures;
 mod parts;
