@@ -12,6 +12,7 @@
 mod analytic;
 mod constants;
 mod fixtures;
+mod opacity;
 mod parts;
 mod quality;
 mod registration;
