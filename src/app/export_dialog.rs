@@ -58,7 +58,7 @@ pub fn export_ui(ui: &mut Ui, model: &mut Model<'_>, export: &mut Export) -> boo
     }
     ui.checkbox(&mut export.force, "replace the file if it exists");
     ui.label(estimate(export, model.export_rate));
-    let line = export.command_line(&input);
+    let line = export.command_line(&input, &model.state.environment.hints());
     ui.horizontal(|ui| {
         if ui.button("Copy the line").clicked() {
             model.push(Command::CopyText(line.clone()));
