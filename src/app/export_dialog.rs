@@ -11,7 +11,7 @@ use crate::imaging::resample::{MOST_SIDE, chart_size};
 use crate::mapping::{Frame, Layout, MappingId};
 
 /// A row of the form: a name and a list to choose from.
-fn row_ui<T: PartialEq + Clone>(
+pub(super) fn row_ui<T: PartialEq + Clone>(
     ui: &mut Ui,
     label: &str,
     now: &mut T,
