@@ -26,6 +26,9 @@ const PICTURES_WIDTH: f32 = 560.0;
 const GAP: f32 = 10.0;
 const AROUND: f32 = 48.0;
 
+/// Height of what stands above and below the columns: two lines, progress, two lines about mirrors, the command line, buttons.
+const OTHERS: f32 = 160.0;
+
 /// Width of the dialog: both columns, as far as the window has room.
 pub fn reading_width(ui: &Ui) -> f32 {
     let room = ui.ctx().content_rect().width() - AROUND;
@@ -42,10 +45,7 @@ pub fn reading_ui(ui: &mut Ui, model: &mut Model<'_>, file: &mut MapFile) -> boo
         Some(pictures) => pictures.sentence(),
         None => file.path.display().to_string(),
     });
-    // What stands below the columns: two lines about mirrors, the command line, the buttons.
-    const BELOW: f32 = 150.0;
-    let top = ui.cursor().top();
-    let height = (ui.ctx().content_rect().bottom() - AROUND / 2.0 - BELOW - top).clamp(60.0, 520.0);
+    let height = (ui.ctx().content_rect().height() - AROUND - OTHERS).clamp(60.0, 660.0);
     ui.horizontal_top(|ui| {
         ui.vertical(|ui| {
             ui.set_width(FORM_WIDTH);
@@ -140,6 +140,9 @@ fn form_ui(ui: &mut Ui, pictures: &Pictures, taken: &Result<Taken, String>, hint
             hints.siting = siting;
         }
     });
+    if let Some(frame) = said_frame(chosen, hints) {
+        ui.label(RichText::new(format!("{}: {}", frame.name, frame.about)).small());
+    }
     ui.checkbox(
         &mut hints.mirrored,
         "a mirror image: exchange left and right",
@@ -169,13 +172,15 @@ fn proposals_ui(ui: &mut Ui, proposals: &[Proposal], seen: Option<&Taken>, hints
     for proposal in proposals {
         let is_taken = seen.is_some_and(|taken| {
             let chosen = &taken.chosen;
-            (chosen.mapping, chosen.layout, chosen.frame)
+            let frame = chosen.frame.filter(|frame| !frame.is_ours);
+            (chosen.mapping, chosen.layout, frame)
                 == (proposal.mapping, proposal.layout, proposal.frame)
         });
         let row = ui.radio(is_taken, proposal_name(proposal));
         if row.on_hover_text(&proposal.why).clicked() && !is_taken {
+            let own = Frame::ALL.iter().find(|frame| frame.is_ours);
             *hints = OpenHints {
-                siting: None,
+                frame: proposal.frame.or(own),
                 arrange: None,
                 ..proposal.hints(hints)
             };
@@ -237,26 +242,24 @@ fn mapping_rows_ui(ui: &mut Ui, chosen: Option<&Proposal>, hints: &mut OpenHints
     }
 }
 
-/// The program whose orientation the map has.
+/// The program whose orientation the map has; Sixfold's own where nobody says otherwise.
 fn frame_row_ui(ui: &mut Ui, chosen: Option<&Proposal>, hints: &mut OpenHints) {
     let Some(mapping) = hints.mapping.or(chosen.map(|chosen| chosen.mapping)) else {
         return;
     };
-    let mut frame = hints.frame.or(chosen.and_then(|chosen| chosen.frame));
+    let own = Frame::ALL.iter().find(|frame| frame.is_ours);
+    let mut frame = said_frame(chosen, hints).or(own);
     let known = Frame::ALL.iter().filter(|frame| frame.knows(mapping));
-    let frames: Vec<Option<&'static Frame>> =
-        std::iter::once(None).chain(known.map(Some)).collect();
-    let name =
-        |frame: &Option<&'static Frame>| frame.map_or("Sixfold's own", |f| f.name).to_owned();
+    let frames: Vec<Option<&'static Frame>> = known.map(Some).collect();
+    let name = |frame: &Option<&'static Frame>| frame.map_or("", |frame| frame.name).to_owned();
     if row_ui(ui, "frame", &mut frame, &frames, name) {
         hints.frame = frame;
         hints.siting = None;
     }
-    if let Some(frame) = frame {
-        ui.label("");
-        ui.label(RichText::new(frame.about).small());
-        ui.end_row();
-    }
+}
+
+fn said_frame(chosen: Option<&Proposal>, hints: &OpenHints) -> Option<&'static Frame> {
+    hints.frame.or(chosen.and_then(|chosen| chosen.frame))
 }
 
 /// How the six faces would meet.
@@ -352,17 +355,24 @@ fn pictures_ui(ui: &mut Ui, room: Vec2, seen: Option<&Taken>, labelled: Option<&
     let width = (room.x - GAP) / 1.5;
     let height = (room.y / 2.0 - TITLE).min(0.75 * width).max(24.0);
     let cross = vec2(height / 0.75, height);
+    let seams = seen.and_then(|taken| taken.chosen.score);
+    let title = seams.map_or_else(
+        || "This map".to_owned(),
+        |score| format!("This map, seams {score:.2}"),
+    );
     let rows = [
-        ("This map", seen.map(|taken| &taken.shown)),
-        ("The labelled environment, the right way round", labelled),
+        (title, seen.map(|taken| &taken.shown)),
+        (
+            "The labelled environment, the right way round".to_owned(),
+            labelled,
+        ),
     ];
     for (title, shown) in rows {
-        ui.label(RichText::new(title).strong());
+        ui.label(RichText::new(&title).strong());
         let whole = vec2(1.5 * cross.x + GAP, cross.y);
         let (rect, response) = ui.allocate_exact_size(whole, Sense::hover());
-        response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::Role::Image, shown.is_some(), title)
-        });
+        response
+            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, shown.is_some(), &title));
         let Some(shown) = shown else { continue };
         cross_ui(ui, Rect::from_min_size(rect.min, cross), shown.cross.id());
         let ball = Rect::from_center_size(
