@@ -17,7 +17,7 @@ mod window_kit;
 use std::path::{Path, PathBuf};
 
 use egui::Role;
-use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::kittest::Queryable;
 use scenes::{Laid, photograph};
 use sixfold::app::command::Command;
 use sixfold::app::state::{AppState, SCHEMA};
@@ -87,10 +87,16 @@ fn worst(ui: &Ui, expected: fn(Vec3<f64>) -> Vec3<f64>) -> f32 {
 }
 
 /// What interpolation between texels of a coarse face leaves, and much less than what another face shows.
-const CLOSE: f32 = 0.06;
+const CLOSE: f32 = 0.03;
 
 fn click(ui: &mut Ui, role: Role, label: &str) {
     ui.get_by_role_and_label(role, label).click();
+    clicked(ui);
+}
+
+/// After a click: it is a press and a release, and what it starts may begin a frame later.
+fn clicked(ui: &mut Ui) {
+    ui.run_steps(3);
     settle(ui);
 }
 
@@ -113,19 +119,13 @@ fn exchanged_faces_are_put_right_by_the_arrangement_that_is_proposed() {
     ui.get_by_label_contains("Lower is better");
     // As labelled, the right face shows what is ahead.
     click(&mut ui, Role::Button, "Open");
-    assert!(worst(&ui, |dir| dir) > 5.0 * CLOSE);
-    assert!(
-        worst(&ui, |dir| Vec3::new(dir.z, dir.y, dir.x)) > 5.0 * CLOSE,
-        "mirrored pictures"
-    );
+    let wrong = worst(&ui, |dir| dir);
+    assert!(wrong > 3.0 * CLOSE, "{wrong}");
 
     click(&mut ui, Role::Button, "How it is read …");
     click(&mut ui, Role::Button, "Take this arrangement");
     ui.get_by_label_contains(&format!("--arrange {truth}"));
-    assert!(
-        ui.query_by_label_contains("do not meet as labelled")
-            .is_none()
-    );
+    assert!(ui.query_by_label("Take this arrangement").is_none());
     click(&mut ui, Role::Button, "Open");
     assert!(!is_asked(&ui, "exchanged.exr"));
     assert_eq!(file(&ui).hints.arrange, truth.parse().ok());
@@ -137,7 +137,7 @@ fn exchanged_faces_are_put_right_by_the_arrangement_that_is_proposed() {
     assert_eq!(AppState::from_json(&text).unwrap(), *state(&ui));
     run(&mut ui, Command::Undo);
     assert_eq!(file(&ui).hints.arrange, None);
-    assert!(worst(&ui, |dir| dir) > 5.0 * CLOSE);
+    assert_eq!(worst(&ui, |dir| dir), wrong);
     run(&mut ui, Command::Redo);
     assert_eq!(worst(&ui, |dir| dir), right);
     run(&mut ui, Command::Undo);
@@ -212,7 +212,7 @@ fn a_square_is_asked_about_and_decoded_once() {
                 .is_some_and(|label| label.starts_with("Angular map"))
     });
     angular.click();
-    settle(&mut ui);
+    clicked(&mut ui);
     ui.get_by_label_contains("--from angular");
     assert!(ui.query_by_label_contains("--from octahedral").is_none());
     // A frame that knows it is offered, and comes into the line.
@@ -222,12 +222,12 @@ fn a_square_is_asked_about_and_decoded_once() {
         "it has no angular maps"
     );
     ui.get_by_label("skylibs").click();
-    settle(&mut ui);
+    clicked(&mut ui);
     ui.get_by_label_contains("--from angular --from-layout single --from-frame skylibs");
     // Another mapping forgets the frame that does not know it.
     click(&mut ui, Role::ComboBox, "mapping");
     ui.get_by_role_and_label(Role::Button, "Octahedral").click();
-    settle(&mut ui);
+    clicked(&mut ui);
     assert!(ui.query_by_label_contains("--from-frame").is_none());
     click(&mut ui, Role::Button, "Open");
     assert_eq!(file(&ui).hints.mapping, Some(MappingId::Octahedral));
@@ -255,7 +255,7 @@ fn faces_are_said_one_by_one() {
     let combo = |ui: &mut Ui, label: &str, choice: &str| {
         click(ui, Role::ComboBox, label);
         ui.get_by_role_and_label(Role::Button, choice).click();
-        settle(ui);
+        clicked(ui);
     };
     combo(&mut ui, "picture +x shows", "-z");
     ui.get_by_label_contains("--arrange -z,-x,+y,-y,+z,+x");
@@ -305,6 +305,7 @@ fn the_job_is_cancelled_with_its_dialog() {
     ui.get_by_role_and_label(Role::Button, "How it is read …")
         .click();
     let ctx = ui.ctx.clone();
+    let mut cancelled = false;
     for _ in 0..20 {
         ui.step();
         if let Some(job) = ui.state().explorer().jobs().first().cloned() {
@@ -313,17 +314,14 @@ fn the_job_is_cancelled_with_its_dialog() {
                 "{}",
                 job.title
             );
-            let open = ui.get_by_role_and_label(Role::Button, "Open");
-            assert!(
-                open.accesskit_node().is_disabled(),
-                "before anything is seen"
-            );
             ui.state_mut()
                 .explorer_mut()
                 .run(&ctx, Command::Cancel(job.id));
+            cancelled = true;
             break;
         }
     }
+    assert!(cancelled);
     settle(&mut ui);
     assert!(!is_asked(&ui, "right.exr"));
     assert_eq!(*state(&ui), before);

@@ -328,14 +328,18 @@ fn face_row_ui(ui: &mut Ui, label: usize, arrangement: &mut Arrangement) {
             (true, _) => format!("mirrored, {degrees}°"),
         }
     };
-    ComboBox::from_id_salt(("lies", label))
+    let lies = ComboBox::from_id_salt(("lies", label))
         .width(110.0)
         .selected_text(name(turn))
         .show_ui(ui, |ui| {
             for other in Turn::all() {
                 ui.selectable_value(&mut turn, other, name(other));
             }
-        });
+        })
+        .response;
+    ui.ctx().accesskit_node_builder(lies.id, |node| {
+        node.set_label(format!("picture {} lies", face(label as u32)));
+    });
     ui.end_row();
     // Each face is shown once: the picture that showed it shows what this one did.
     if let Some(other) = arrangement.label_of(chart) {
