@@ -151,9 +151,9 @@ fn form_ui(ui: &mut Ui, pictures: &Pictures, taken: &Result<Taken, String>, hint
         ui.label(RichText::new(note).small());
     }
     if let Some(misfit) = seen.and_then(|taken| taken.misfit.as_ref()) {
-        misfit_ui(ui, misfit, hints);
+        misfit_ui(ui, misfit, chosen, hints);
     }
-    if chosen.is_some_and(|chosen| chosen.mapping.info().chart_count() == 6) {
+    if let Some(chosen) = chosen.filter(|chosen| chosen.mapping.info().chart_count() == 6) {
         faces_ui(ui, chosen, hints);
     }
     let is_changed = !hints.is_empty();
@@ -178,9 +178,14 @@ fn proposals_ui(ui: &mut Ui, proposals: &[Proposal], seen: Option<&Taken>, hints
         });
         let row = ui.radio(is_taken, proposal_name(proposal));
         if row.on_hover_text(&proposal.why).clicked() && !is_taken {
-            let own = Frame::ALL.iter().find(|frame| frame.is_ours);
+            // Where another one lies alike, no frame would leave it open which of the two is meant.
+            let is_framed = |other: &&Proposal| {
+                other.frame.is_some()
+                    && (other.mapping, other.layout) == (proposal.mapping, proposal.layout)
+            };
+            let other = proposals.iter().find(is_framed);
             *hints = OpenHints {
-                frame: proposal.frame.or(own),
+                frame: proposal.frame.or(other.and_then(|_| own_frame())),
                 arrange: None,
                 ..proposal.hints(hints)
             };
@@ -247,15 +252,19 @@ fn frame_row_ui(ui: &mut Ui, chosen: Option<&Proposal>, hints: &mut OpenHints) {
     let Some(mapping) = hints.mapping.or(chosen.map(|chosen| chosen.mapping)) else {
         return;
     };
-    let own = Frame::ALL.iter().find(|frame| frame.is_ours);
-    let mut frame = said_frame(chosen, hints).or(own);
+    let mut frame = said_frame(chosen, hints).or(own_frame());
     let known = Frame::ALL.iter().filter(|frame| frame.knows(mapping));
     let frames: Vec<Option<&'static Frame>> = known.map(Some).collect();
     let name = |frame: &Option<&'static Frame>| frame.map_or("", |frame| frame.name).to_owned();
     if row_ui(ui, "frame", &mut frame, &frames, name) {
-        hints.frame = frame;
+        // Both say which face is which.
+        (hints.frame, hints.arrange) = (frame, None);
         hints.siting = None;
     }
+}
+
+fn own_frame() -> Option<&'static Frame> {
+    Frame::ALL.iter().find(|frame| frame.is_ours)
 }
 
 fn said_frame(chosen: Option<&Proposal>, hints: &OpenHints) -> Option<&'static Frame> {
@@ -263,7 +272,7 @@ fn said_frame(chosen: Option<&Proposal>, hints: &OpenHints) -> Option<&'static F
 }
 
 /// How the six faces would meet.
-fn misfit_ui(ui: &mut Ui, misfit: &Solution, hints: &mut OpenHints) {
+fn misfit_ui(ui: &mut Ui, misfit: &Solution, chosen: Option<&Proposal>, hints: &mut OpenHints) {
     ui.horizontal_wrapped(|ui| {
         for (name, arrangement, sentence) in [
             (
@@ -277,22 +286,36 @@ fn misfit_ui(ui: &mut Ui, misfit: &Solution, hints: &mut OpenHints) {
                 misfit.mirrored_sentence(),
             ),
         ] {
-            if ui.button(name).on_hover_text(sentence).clicked() {
-                hints.arrange = Some(arrangement);
+            if ui.button(name).on_hover_text(sentence).clicked()
+                && let Some(chosen) = chosen
+            {
+                arrange(hints, chosen, arrangement);
             }
         }
     });
 }
 
+/// Says what each picture shows, instead of a frame, whose order of the pictures goes into it.
+fn arrange(hints: &mut OpenHints, chosen: &Proposal, arrangement: Arrangement) {
+    let order = chosen.frame.and_then(|frame| frame.order(chosen.layout));
+    hints.arrange = Some(order.map_or(arrangement, |order| arrangement.by_place(order)));
+    hints.frame = None;
+    hints.siting = Some(chosen.siting);
+}
+
 /// What each of the six pictures shows, where the user says it.
-fn faces_ui(ui: &mut Ui, chosen: Option<&Proposal>, hints: &mut OpenHints) {
+fn faces_ui(ui: &mut Ui, chosen: &Proposal, hints: &mut OpenHints) {
     let mut by_face = hints.arrange.is_some();
     if ui
         .checkbox(&mut by_face, "say what each face shows")
         .changed()
     {
-        let framed = chosen.and_then(|chosen| chosen.frame?.arrangement());
-        hints.arrange = by_face.then(|| framed.unwrap_or_default());
+        if by_face {
+            let framed = chosen.frame.and_then(Frame::arrangement);
+            arrange(hints, chosen, framed.unwrap_or_default());
+        } else {
+            hints.arrange = None;
+        }
     }
     let Some(arrangement) = &mut hints.arrange else {
         return;

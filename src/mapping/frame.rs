@@ -138,6 +138,13 @@ impl Frame {
         }
     }
 
+    /// The labels of its six pictures in the order in which they lie in a layout. Where the cells stand for the labels, as in
+    /// a cross or six files, there is none.
+    pub fn order(&self, layout: Layout) -> Option<[usize; 6]> {
+        let is_ordered = matches!(layout, Layout::Row | Layout::Column | Layout::ThreeByTwo);
+        self.cube.filter(|_| is_ordered).map(|cube| cube.order)
+    }
+
     /// The faces of our world that its six pictures show.
     pub fn arrangement(&self) -> Option<Arrangement> {
         Some(match self.cube?.pictures {

@@ -9,7 +9,7 @@ use sixfold::imaging::{
     Container, Environment, EnvmapKind, FACE_COLORS, Level, MapFile, OpenHints, OpenedMap,
     Pictures, Preview, Progress, Raster, Samples, Siting, Stored, Transfer, open_map,
 };
-use sixfold::mapping::{Frame, Layout, MappingId};
+use sixfold::mapping::{Arrangement, Frame, Layout, MappingId};
 use sixfold::math::Vec3;
 
 use crate::scenes::{Laid, photograph};
@@ -223,6 +223,30 @@ fn pictures_are_decoded_once_and_taken_in_any_way() {
         ..nothing
     };
     assert!(all.are_of(&six[3..4], &nothing) && !all.are_of(&six[..1], &alone));
+}
+
+#[test]
+fn an_order_goes_into_the_arrangement() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("row.exr");
+    let laid = Laid::new(MappingId::Cube, Layout::Row, 16);
+    let pictures = laid.draw(&laid.shape(), photograph);
+    write(&path, Content::Raster(&pictures[0]), None);
+    let frame = Frame::from_id("py360convert").unwrap();
+    let arrangement: Arrangement = "+z,-x,+y:180,-y,+x:mirrored:90,-z".parse().unwrap();
+    let charts = |frame, arrange| {
+        let hints = OpenHints {
+            frame,
+            arrange: Some(arrange),
+            ..OpenHints::default()
+        };
+        open(&path, &hints).unwrap().map.shape().charts.clone()
+    };
+    let both = charts(Some(frame), arrangement);
+    let order = frame.order(Layout::Row).unwrap();
+    assert_eq!(charts(None, arrangement.by_place(order)), both);
+    assert_ne!(charts(None, arrangement), both);
+    assert_eq!(frame.order(Layout::Cross), None);
 }
 
 #[test]
