@@ -66,6 +66,10 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
             if ui.checkbox(&mut story.open, "Ray story").changed() {
                 model.push(Action::SetStory(story));
             }
+            let mut loss = model.state.loss;
+            if ui.checkbox(&mut loss.open, "Loss laboratory").changed() {
+                model.push(Action::SetLoss(loss));
+            }
             if ui.button("Reset the view   R").clicked() {
                 model.push(Action::ResetCamera);
                 ui.close();

@@ -334,7 +334,7 @@ impl Export {
 }
 
 /// The picture as an environment map.
-fn latlong(image: &Image) -> Result<EnvironmentMap, String> {
+pub(super) fn latlong(image: &Image) -> Result<EnvironmentMap, String> {
     let samples = Samples::F32(image.pixels().as_flattened().to_vec());
     let size = [image.width(), image.height()];
     let raster = Raster::new(size, Channels::Rgb, Transfer::Linear, samples);

@@ -21,6 +21,8 @@ pub mod history;
 mod inspector;
 mod job;
 mod keys;
+pub mod loss;
+mod loss_panel;
 mod map_panel;
 mod marks;
 mod material_panel;

@@ -8,6 +8,7 @@ use crate::scene::Target;
 
 use super::command::Command;
 use super::history::History;
+use super::loss::LossLab;
 use super::state::{AppState, Overlays};
 use super::story::StoryStep;
 use super::views::{ViewKey, Views};
@@ -63,6 +64,10 @@ pub struct Model<'a> {
     pub surroundings: Option<&'a Surroundings>,
     /// The steps of the ray story; empty while its pane is closed, and where there is nothing to tell.
     pub story: Vec<StoryStep>,
+    /// What a conversion loses, as far as it has been measured.
+    pub loss: &'a LossLab,
+    /// The loss laboratory is seen: only then anything is measured.
+    pub sees_loss: bool,
     /// Linear colour of the probed texel in the selected map, when it has been read back.
     pub texel_color: Option<[f32; 3]>,
     /// The frame plan's account of the last drawing.

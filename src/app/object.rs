@@ -138,7 +138,11 @@ pub struct Jobs<'a> {
 }
 
 impl Jobs<'_> {
-    fn start<T: Send + 'static>(
+    /// Starts a job.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn start<T: Send + 'static>(
         &mut self,
         title: String,
         work: impl FnOnce(&Progress) -> T + Send + 'static,

@@ -11,6 +11,7 @@ use crate::app::dialogs::{Dialog, ball_from};
 use crate::app::export::Export;
 use crate::app::files::{self, Opened};
 use crate::app::job::{Job, Outcome};
+use crate::app::loss::Wanted;
 use crate::app::model::{JobLine, Surroundings};
 use crate::app::object::{BodyKey, Jobs, News, job_line};
 use crate::app::panes;
@@ -69,6 +70,7 @@ impl Explorer {
             .chain(opening)
             .chain(self.errands.iter().map(job_line))
             .chain(self.object.jobs())
+            .chain(self.loss.job())
             .collect()
     }
 
@@ -211,6 +213,7 @@ impl Explorer {
             self.keep_shown();
         }
         self.object.cancel(id);
+        self.loss.cancel(id);
         self.opening.take_if(|job| job.id == id);
         self.errands.retain(|job| job.id != id);
     }
@@ -220,6 +223,7 @@ impl Explorer {
         self.poll_opening(ctx);
         self.poll_errands(ctx);
         self.poll_asked(ctx);
+        self.loss.poll(ctx);
         for news in self.object.poll() {
             match news {
                 News::Opened(path) => self.act(Action::SetModel(path)),
@@ -238,6 +242,23 @@ impl Explorer {
                 News::PathsFailed(why) => self.fail(why),
                 News::Note(note) => self.tell(note),
             }
+        }
+    }
+
+    /// Measures the loss that is asked for while its pane is seen, and nothing while it is hidden.
+    pub(super) fn measure_loss(&mut self, ctx: &Context) {
+        let seen = self.surroundings.as_ref().filter(|_| self.sees_loss);
+        let wanted = seen.map(|shown| Wanted::new(&self.state, &shown.loaded));
+        if self.complete {
+            self.loss.complete(wanted, ctx);
+            return;
+        }
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        if let Err(why) = self.loss.follow(wanted, &mut jobs) {
+            self.fail(why);
         }
     }
 
