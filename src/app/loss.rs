@@ -96,17 +96,25 @@ impl Measured {
         self.loss.difference.worst.difference == 0.0
     }
 
-    /// By what the residual is multiplied where nothing else is asked for: the power of two that brings the RMS to between an
-    /// eighth and a quarter of white, which is a middle grey on the screen.
+    /// By what the residual is multiplied where nothing else is asked for: the largest power of two that leaves nine tenths
+    /// of the texels that differ below white. The few brightest, which rule the RMS, would leave the others dark.
     fn usual_magnification(&self) -> u32 {
-        /// The RMS is below this after it.
-        const SHOWN_RMS: f64 = 0.25;
-        let most = (SHOWN_RMS / self.loss.difference.rms).clamp(1.0, f64::from(MOST_MAGNIFIED));
-        if self.is_lossless() {
-            1
-        } else {
-            1 << (most as u32).ilog2()
+        let rasters = self.loss.difference.residual.rasters().iter();
+        let texels = rasters.flat_map(|raster| match raster.samples() {
+            Samples::F32(samples) => samples.as_chunks::<3>().0,
+            _ => &[],
+        });
+        let mut largest: Vec<f32> = texels
+            .map(|[r, g, b]| r.max(*g).max(*b))
+            .filter(|difference| *difference > 0.0)
+            .collect();
+        if largest.is_empty() {
+            return 1;
         }
+        let at = (largest.len() - 1) * 9 / 10;
+        let (_, tenth, _) = largest.select_nth_unstable_by(at, f32::total_cmp);
+        // `as` saturates.
+        1 << ((1.0 / *tenth) as u32).clamp(1, MOST_MAGNIFIED).ilog2()
     }
 
     /// The residual times `factor` as light, unfolded as the panel of its mapping is; the background where it has no texel.

@@ -34,7 +34,8 @@ pub fn loss_ui(ui: &mut Ui, model: &mut Model<'_>) {
         let scroll = egui::ScrollArea::vertical().auto_shrink([false, false]);
         if size.x >= WIDE {
             ui.horizontal_top(|ui| {
-                ui.allocate_ui(vec2(TEXT_WIDTH, size.y), |ui| {
+                let column = egui::Layout::top_down(egui::Align::Min);
+                ui.allocate_ui_with_layout(vec2(TEXT_WIDTH, size.y), column, |ui| {
                     scroll.show(ui, |ui| text_ui(ui, model));
                 });
                 picture_ui(ui, model, ui.available_size());
@@ -69,11 +70,12 @@ fn text_ui(ui: &mut Ui, model: &mut Model<'_>) {
     }
 }
 
-/// What is measured, and how it is shown.
+/// What is measured, and how it is shown. A is the map that goes and comes back, B the one that it goes through.
 fn choices_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let mut loss = model.state.loss;
-    ui.horizontal_wrapped(|ui| map_ui(ui, "map", &mut loss.from, &mut loss.from_rows));
-    ui.horizontal_wrapped(|ui| map_ui(ui, "through", &mut loss.via, &mut loss.via_rows));
+    ui.label("What is lost from A to B and back to A?");
+    ui.horizontal_wrapped(|ui| map_ui(ui, "A", &mut loss.from, &mut loss.from_rows));
+    ui.horizontal_wrapped(|ui| map_ui(ui, "B", &mut loss.via, &mut loss.via_rows));
     let filters = std::iter::once(None).chain(Filter::ALL.map(Some));
     let filter_name = |filter: &Option<Filter>| filter.map_or("what suits", Filter::id).to_owned();
     ui.horizontal_wrapped(|ui| list_ui(ui, "filter", &mut loss.filter, filters, filter_name));
@@ -115,8 +117,11 @@ fn list_ui<T: PartialEq + Clone>(
     options: impl IntoIterator<Item = T>,
     name: impl Fn(&T) -> String,
 ) {
+    /// Width of a short name; longer ones take more where there is room.
+    const WIDTH: f32 = 90.0;
     let text = ui.label(label);
     ComboBox::from_id_salt(("loss", label))
+        .width(WIDTH.min(ui.available_width()))
         .height(420.0)
         .selected_text(name(now))
         .show_ui(ui, |ui| {
@@ -150,7 +155,7 @@ fn numbers_ui(ui: &mut Ui, model: &mut Model<'_>, shown: &Shown) {
     ui.label(times);
 }
 
-/// "Latlong 512×256 through Cube map 6 × 128×128 and back".
+/// "A: Latlong 512×256; B: Cube map 6 × 128×128".
 fn way_text(settings: &LossState) -> String {
     let map = |mapping: MappingId, rows: u32| {
         let [width, height] = chart_size(mapping, rows);
@@ -161,7 +166,7 @@ fn way_text(settings: &LossState) -> String {
         format!("{} {count}{width}×{height}", mapping.info().name)
     };
     format!(
-        "{} through {} and back",
+        "A: {}; B: {}",
         map(settings.from, settings.from_rows),
         map(settings.via, settings.via_rows)
     )
