@@ -1,6 +1,10 @@
 //! The loss laboratory in the window: what is measured, where the worst texel is, and what is left undone.
 
 #![cfg(feature = "explorer")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "helpers of tests say what they expect by unwrapping"
+)]
 
 mod window_kit;
 
