@@ -256,7 +256,7 @@ fn settings_are_kept_undone_and_brought_into_range() {
     assert!(json.contains(r#""filter": "area""#), "{json}");
     assert_eq!(AppState::from_json(&json).unwrap(), state);
     assert_ne!(AppState::from_json(&json).unwrap(), AppState::default());
-    let none = AppState::from_json(r#"{"schema": 3, "loss": {"magnification": 0}}"#).unwrap();
+    let none = AppState::from_json(r#"{"schema": 4, "loss": {"magnification": 0}}"#).unwrap();
     assert_eq!(none.loss.magnification, Some(1));
     // A scene from before has none.
     let old = AppState::from_json(r#"{"schema": 2, "curves_open": true}"#).unwrap();

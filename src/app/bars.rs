@@ -7,6 +7,7 @@ use super::command::Command;
 use super::dialogs::{Dialog, PictureDialog, SaveDialog};
 use super::figures::Figure;
 use super::model::Model;
+use crate::imaging::Environment;
 
 /// The menus. Dialogs are opened by setting `dialog`.
 pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) {
@@ -14,6 +15,12 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
         ui.menu_button("File", |ui| {
             if ui.button("Open …   Ctrl+O").clicked() {
                 *dialog = Some(Dialog::Open(String::new()));
+                ui.close();
+            }
+            if let Environment::File(file) = &model.state.environment
+                && ui.button("How the environment is read …").clicked()
+            {
+                *dialog = Some(Dialog::Reading(file.clone()));
                 ui.close();
             }
             if ui.button("Save the scene …   Ctrl+S").clicked() {

@@ -21,16 +21,21 @@ use super::model::{Message, Model, Surroundings};
 use super::object::{Jobs, ObjectData};
 use super::panes;
 use super::picture;
+use super::reading::{Reading, Refusal};
 use super::state::{AppState, unit};
 use super::texel_color::{TexelColor, TexelKey};
 use super::views::{ViewKey, Views};
 use super::{bars, controls, inspector, keys, story, viewport};
 use crate::gpu::{Gpu, Renderer};
+use crate::imaging::Environment;
 
 use jobs::{Errand, Ready};
 
 /// A dialog of the system that has not been answered: what it asks for, and the file when there is one.
 type Asked = (Dialog, Job<Option<PathBuf>>);
+
+/// Surroundings, and how their file was read.
+type Loading = (Ready, Option<String>);
 
 /// Everything behind the window.
 pub struct Explorer {
@@ -44,11 +49,13 @@ pub struct Explorer {
     loss: LossLab,
     sees_loss: bool,
     surroundings: Option<Surroundings>,
-    loading: Option<Job<Result<Ready, String>>>,
+    loading: Option<Job<Result<Loading, Refusal>>>,
     opening: Option<Job<Result<Opened, String>>>,
     /// Jobs that end in a message, and perhaps in a picture for the clipboard.
     errands: Vec<Job<Result<Errand, String>>>,
     asked: Option<Asked>,
+    /// The file of the dialog about how it is read.
+    reading: Option<Reading>,
     /// Texels a second that the last export made.
     export_rate: Option<f64>,
     messages: Vec<Message>,
@@ -86,6 +93,7 @@ impl Explorer {
             opening: None,
             errands: Vec::new(),
             asked: None,
+            reading: None,
             export_rate: None,
             messages: Vec::new(),
             dialog: None,
@@ -147,6 +155,7 @@ impl Explorer {
             || self.loading.is_some()
             || self.opening.is_some()
             || !self.errands.is_empty()
+            || self.reading.as_ref().is_some_and(|r| r.job().is_some())
     }
 
     /// Shows surroundings that are there already, without a job; `complete` asks for every map at once from now on.
@@ -256,6 +265,7 @@ impl Explorer {
             adapter: &adapter,
             jobs: &jobs,
             export_rate: self.export_rate,
+            reading: self.reading.as_ref(),
             messages: &self.messages,
             gpu: &self.gpu,
             views: &mut self.views,
@@ -344,6 +354,11 @@ impl Explorer {
                 }
             }
             Command::LoadEnvironment(environment) => self.load(ctx, environment),
+            Command::LoadFile(file) => {
+                let pictures = self.reading.as_ref().filter(|reading| reading.is_of(&file));
+                let pictures = pictures.and_then(|reading| reading.pictures().cloned());
+                self.load_from(ctx, Environment::File(file), pictures);
+            }
             Command::ShowDialog(dialog) => self.dialog = Some(dialog),
             Command::Browse => {
                 if let Some(dialog) = self.dialog.clone() {

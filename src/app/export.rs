@@ -6,8 +6,7 @@ use crate::imaging::load::{EnvmapKind, Format};
 use crate::imaging::resample::{Conversion, chart_size, levels, resample};
 use crate::imaging::save::{Content, SaveOptions, save};
 use crate::imaging::{
-    Channels, Container, EnvironmentMap, Image, Progress, Raster, SampleKind, Samples, Stored,
-    Transfer,
+    Channels, Container, EnvironmentMap, Image, OpenHints, Progress, SampleKind, Stored, Transfer,
 };
 use crate::mapping::{Frame, Layout, MappingId};
 use crate::math::Rotation;
@@ -227,8 +226,8 @@ impl Export {
         self.zstd || !self.format.is_container()
     }
 
-    /// The words of the equal command line; `input` is the environment's id.
-    pub fn command_line(&self, input: &str) -> String {
+    /// The words of the equal command line; `input` is the environment's id, `hints` how it is read.
+    pub fn command_line(&self, input: &str, hints: &OpenHints) -> String {
         let mut words = vec![
             "sixfold".to_owned(),
             "convert".to_owned(),
@@ -239,6 +238,9 @@ impl Export {
             words.push(name.to_owned());
             words.extend(value.map(quoted));
         };
+        for (name, value) in hints.options() {
+            add(name, value.as_deref());
+        }
         add("--to", Some(self.mapping.info().id));
         add("--size", Some(&self.height.to_string()));
         if self.layout != Layout::Faces {
@@ -289,7 +291,7 @@ impl Export {
     /// One line that says what failed; the file is not there then, unless it was before.
     pub fn write(&self, image: &Image, progress: &Progress) -> Result<(), String> {
         let said = |error: &dyn std::fmt::Display| error.to_string();
-        let source = latlong(image)?;
+        let source = EnvironmentMap::of_latlong(image).map_err(|e| said(&e))?;
         let conversion = self.conversion(&source)?;
         let (map, _) = resample(&source, &conversion, progress).map_err(|e| said(&e))?;
         drop(source);
@@ -333,18 +335,8 @@ impl Export {
     }
 }
 
-/// The picture as an environment map.
-pub(super) fn latlong(image: &Image) -> Result<EnvironmentMap, String> {
-    let samples = Samples::F32(image.pixels().as_flattened().to_vec());
-    let size = [image.width(), image.height()];
-    let raster = Raster::new(size, Channels::Rgb, Transfer::Linear, samples);
-    let raster = raster.ok_or_else(|| "the environment has no texels".to_owned())?;
-    EnvironmentMap::from_layout(MappingId::Latlong, Layout::Single, vec![raster])
-        .map_err(|error| error.to_string())
-}
-
 /// A word as a shell reads it.
-fn quoted(word: &str) -> String {
+pub(super) fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./,%+:=".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
         word.to_owned()
@@ -372,7 +364,7 @@ mod tests {
         bevy.set_preset(&Preset::ALL[1]);
         bevy.rotation = Rotation::from_degrees([90.0, 0.0, -15.0]);
         assert_eq!(
-            bevy.command_line("my sky.hdr"),
+            bevy.command_line("my sky.hdr", &OpenHints::default()),
             "sixfold convert 'my sky.hdr' environment.ktx2 --to cube --size 512 --to-frame bevy --rotate 90,0,-15 \
              --depth half --mips"
         );

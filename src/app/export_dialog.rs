@@ -11,7 +11,7 @@ use crate::imaging::resample::{MOST_SIDE, chart_size};
 use crate::mapping::{Frame, Layout, MappingId};
 
 /// A row of the form: a name and a list to choose from.
-fn row_ui<T: PartialEq + Clone>(
+pub(super) fn row_ui<T: PartialEq + Clone>(
     ui: &mut Ui,
     label: &str,
     now: &mut T,
@@ -58,7 +58,7 @@ pub fn export_ui(ui: &mut Ui, model: &mut Model<'_>, export: &mut Export) -> boo
     }
     ui.checkbox(&mut export.force, "replace the file if it exists");
     ui.label(estimate(export, model.export_rate));
-    let line = export.command_line(&input);
+    let line = export.command_line(&input, &model.state.environment.hints());
     ui.horizontal(|ui| {
         if ui.button("Copy the line").clicked() {
             model.push(Command::CopyText(line.clone()));

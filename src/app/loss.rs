@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 
-use super::export::latlong;
 use super::job::{Job, Outcome};
 use super::model::JobLine;
 use super::object::{Jobs, job_line};
@@ -72,7 +71,8 @@ impl Measured {
             Some((of, measured)) if of.measures_as(wanted) => return Ok(Arc::clone(measured)),
             Some((of, measured)) if of.has_map_of(wanted) => Arc::clone(&measured.map),
             _ => {
-                let source = latlong(&wanted.loaded.image)?;
+                let source =
+                    EnvironmentMap::of_latlong(&wanted.loaded.image).map_err(|e| said(&e))?;
                 let size = chart_size(settings.from, settings.from_rows);
                 let conversion = Conversion {
                     rotation: wanted.rotation.source_from_world(),

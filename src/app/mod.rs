@@ -34,6 +34,8 @@ pub mod panel_view;
 pub mod panes;
 pub mod picture;
 pub mod probe;
+mod reading;
+mod reading_dialog;
 pub mod state;
 mod story;
 mod texel_color;

@@ -9,6 +9,7 @@ use crate::scene::Target;
 use super::command::Command;
 use super::history::History;
 use super::loss::LossLab;
+use super::reading::Reading;
 use super::state::{AppState, Overlays};
 use super::story::StoryStep;
 use super::views::{ViewKey, Views};
@@ -80,6 +81,8 @@ pub struct Model<'a> {
     pub jobs: &'a [JobLine],
     /// Texels a second that the last export made.
     pub export_rate: Option<f64>,
+    /// The file that the user is deciding about.
+    pub reading: Option<&'a Reading>,
     /// Messages to show.
     pub messages: &'a [Message],
     /// The device, for naming views.

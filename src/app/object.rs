@@ -138,7 +138,7 @@ pub struct Jobs<'a> {
 }
 
 impl Jobs<'_> {
-    /// Starts a job.
+    /// Starts `work` on a thread of its own.
     ///
     /// # Errors
     /// When the system gives no thread.

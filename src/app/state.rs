@@ -19,7 +19,7 @@ use super::objects::target_of;
 use super::viewport::looked_up;
 
 /// Version of the saved form. A scene of a later version is refused; earlier ones are migrated by [`AppState::from_json`].
-pub const SCHEMA: u32 = 3;
+pub const SCHEMA: u32 = 4;
 
 /// Everything that a saved scene holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,7 +27,7 @@ pub const SCHEMA: u32 = 3;
 pub struct AppState {
     /// Version of this form.
     pub schema: u32,
-    /// What surrounds the object.
+    /// What surrounds the object; scenes before form 4 say nothing of how its file is read.
     pub environment: Environment,
     /// How it is turned; scenes before form 3 know no turn.
     pub rotation: Rotation,

@@ -2,7 +2,7 @@
 
 use super::evenness::{has_empty_corners, is_even};
 use super::seams::seams;
-use super::{EnvmapKind, MapShape, Raster, Siting};
+use super::{EnvmapKind, MapShape, OpenHints, Raster, Siting};
 use crate::mapping::{Axes, Domain, Frame, Layout, MappingId};
 
 /// Charts that differ this many times as much across their seams as beside them do not meet.
@@ -44,6 +44,17 @@ impl Proposal {
             score: None,
             why: "as it was said to be".to_owned(),
             doubt: 0.0,
+        }
+    }
+
+    /// The hints that ask for it; what else was said stays.
+    pub fn hints(&self, said: &OpenHints) -> OpenHints {
+        OpenHints {
+            mapping: Some(self.mapping),
+            layout: Some(self.layout),
+            frame: self.frame,
+            siting: Some(self.siting),
+            ..*said
         }
     }
 

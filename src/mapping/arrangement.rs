@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
+
 use super::cube_face::{FACES, from_frame, to_frame};
 use super::{Axes, Turn};
 
@@ -16,7 +18,10 @@ pub struct Held {
 }
 
 /// For each of the six pictures labelled +x -x +y -y +z -z, in this order, the face that it really is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+///
+/// In files it is its text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
 pub struct Arrangement([Held; 6]);
 
 impl Arrangement {
@@ -127,6 +132,20 @@ impl fmt::Display for Arrangement {
             }
         }
         Ok(())
+    }
+}
+
+impl From<Arrangement> for String {
+    fn from(arrangement: Arrangement) -> Self {
+        arrangement.to_string()
+    }
+}
+
+impl TryFrom<String> for Arrangement {
+    type Error = ArrangementError;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse()
     }
 }
 

@@ -5,10 +5,12 @@
 //! that is seen from inside becomes its mirror image. And how its pictures lie in its own axes. From both follows where
 //! its pictures lie in our world; [`Frame::is_mirrored`] tells where that mirrors them after all.
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
 use super::{Arrangement, Axes, Layout, MappingId};
 
 /// How well a frame's facts are founded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Founded {
     /// The program was run on a picture whose texels hold their own directions.
     Run,
@@ -30,7 +32,7 @@ impl Founded {
 }
 
 /// What a program's six pictures are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Pictures {
     /// They are looked up by the usual face table with this direction, made from a direction in the program's axes.
     LookedUp(Axes),
@@ -39,7 +41,7 @@ pub enum Pictures {
 }
 
 /// A program's cube maps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CubeFrame {
     /// What the pictures labelled +x -x +y -y +z -z are.
     pub pictures: Pictures,
@@ -52,7 +54,7 @@ pub struct CubeFrame {
 }
 
 /// A program's way to have environment maps.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, PartialEq, Eq, Hash)]
 pub struct Frame {
     /// Name on the command line.
     pub id: &'static str,
@@ -72,6 +74,20 @@ pub struct Frame {
     pub program_from_map: &'static [(MappingId, Axes)],
     /// Whether its samples sit on the charts' borders instead of in the middle of their squares.
     pub is_edge_sited: bool,
+}
+
+/// By its id.
+impl Serialize for Frame {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.id)
+    }
+}
+
+impl<'de> Deserialize<'de> for &'static Frame {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let id = String::deserialize(deserializer)?;
+        Frame::from_id(&id).map_err(de::Error::custom)
+    }
 }
 
 /// A frame that says nothing of a mapping.

@@ -27,10 +27,13 @@ pub(super) fn open(
     progress: &Progress,
 ) -> Result<Source, ConvertError> {
     let opened = open_map(&[path], hints, progress)?;
+    let mut notes = opened.notes;
+    let certain = opened.misfit.filter(|solution| solution.is_certain);
+    notes.extend(certain.map(|solution| format!("try {}", solution.option())));
     Ok(Source {
         map: opened.map,
         stored: opened.stored,
-        notes: opened.notes,
+        notes,
     })
 }
 

@@ -489,6 +489,7 @@ fn input(options: &ConvertOptions) -> Result<Input, ConvertError> {
         layout: None,
         frame: options.from_frame.as_deref().map(frame).transpose()?,
         arrange: arrange.map_err(|error| ConvertError::usage(format!("{error}")))?,
+        mirrored: options.from_mirrored,
         siting: options.from_samples.map(Siting::from),
         transfer: None,
     };
@@ -525,6 +526,7 @@ fn input(options: &ConvertOptions) -> Result<Input, ConvertError> {
             ),
             (options.from_frame.is_some(), "--from-frame"),
             (options.arrange.is_some(), "--arrange"),
+            (options.from_mirrored, "--from-mirrored"),
             (options.from_samples.is_some(), "--from-samples"),
         ];
         return match said.iter().find(|(given, _)| *given) {
