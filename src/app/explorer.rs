@@ -19,6 +19,7 @@ use super::job::Job;
 use super::loss::LossLab;
 use super::model::{Message, Model, Surroundings};
 use super::object::{Jobs, ObjectData};
+use super::pace::Paces;
 use super::panes;
 use super::picture;
 use super::reading::{Reading, Refusal};
@@ -56,8 +57,7 @@ pub struct Explorer {
     asked: Option<Asked>,
     /// The file of the dialog about how it is read.
     reading: Option<Reading>,
-    /// Texels a second that the last export made.
-    export_rate: Option<f64>,
+    paces: Paces,
     messages: Vec<Message>,
     dialog: Option<Dialog>,
     next_job: u64,
@@ -94,7 +94,7 @@ impl Explorer {
             errands: Vec::new(),
             asked: None,
             reading: None,
-            export_rate: None,
+            paces: Paces::default(),
             messages: Vec::new(),
             dialog: None,
             next_job: 1,
@@ -152,6 +152,7 @@ impl Explorer {
         self.pending
             || self.object.is_busy()
             || self.loss.is_busy()
+            || self.paces.is_busy()
             || self.loading.is_some()
             || self.opening.is_some()
             || !self.errands.is_empty()
@@ -221,6 +222,7 @@ impl Explorer {
         }
         self.draw_views(&ctx, &laid_out);
         self.measure_loss(&ctx);
+        self.measure_pace(&ctx);
         // What was just changed is seen in the next frame; a still window asks for none.
         let draws_on = self.pending && !self.waits;
         if (any && before != self.state) || draws_on || self.texel_color.is_waiting() {
@@ -264,7 +266,7 @@ impl Explorer {
             frames: self.frames,
             adapter: &adapter,
             jobs: &jobs,
-            export_rate: self.export_rate,
+            paces: &self.paces,
             reading: self.reading.as_ref(),
             messages: &self.messages,
             gpu: &self.gpu,

@@ -30,6 +30,7 @@ pub mod model;
 mod object;
 mod objects;
 pub mod offscreen;
+mod pace;
 pub mod panel_view;
 pub mod panes;
 pub mod picture;

@@ -1,6 +1,7 @@
 //! What the panels see: the state and what was made of it. They change nothing; they push commands.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use crate::imaging::{BadTexels, Environment, Loaded};
 use crate::mapping::MappingId;
@@ -9,6 +10,7 @@ use crate::scene::Target;
 use super::command::Command;
 use super::history::History;
 use super::loss::LossLab;
+use super::pace::Paces;
 use super::reading::Reading;
 use super::state::{AppState, Overlays};
 use super::story::StoryStep;
@@ -40,6 +42,8 @@ pub struct JobLine {
     pub title: String,
     /// How far it is, 0 to 1.
     pub fraction: f32,
+    /// How long its present stage will still take, when that can be told.
+    pub left: Option<Duration>,
 }
 
 /// A message that stays until it is dismissed.
@@ -79,8 +83,8 @@ pub struct Model<'a> {
     pub adapter: &'a str,
     /// Jobs under way.
     pub jobs: &'a [JobLine],
-    /// Texels a second that the last export made.
-    pub export_rate: Option<f64>,
+    /// How fast exports are.
+    pub paces: &'a Paces,
     /// The file that the user is deciding about.
     pub reading: Option<&'a Reading>,
     /// Messages to show.

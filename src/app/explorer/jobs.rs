@@ -167,13 +167,14 @@ impl Explorer {
 
     /// Writes the environment for another program.
     pub(super) fn export(&mut self, ctx: &Context, export: Export) {
-        let Some(surroundings) = self.surroundings.clone() else {
+        let Some(shown) = &self.surroundings else {
             self.fail("the environment is still loading; export it when it is there".to_owned());
             return;
         };
+        let environment = shown.environment.clone();
         self.send(ctx, "exporting the environment", move |progress| {
             let start = std::time::Instant::now();
-            export.write(&surroundings.loaded.image, progress)?;
+            export.write(&environment, progress)?;
             Ok(Errand {
                 message: format!("The environment is in {}", export.path),
                 picture: None,
@@ -244,6 +245,7 @@ impl Explorer {
         self.poll_errands(ctx);
         self.poll_asked(ctx);
         self.loss.poll(ctx);
+        self.paces.poll();
         self.follow_reading(ctx);
         for news in self.object.poll() {
             match news {
@@ -279,6 +281,21 @@ impl Explorer {
             ctx,
         };
         if let Err(why) = self.loss.follow(wanted, &mut jobs) {
+            self.fail(why);
+        }
+    }
+
+    /// Measures how fast the export of the open dialog will be.
+    pub(super) fn measure_pace(&mut self, ctx: &Context) {
+        let wanted = match (&self.dialog, &self.surroundings) {
+            (Some(Dialog::Export(export)), Some(shown)) => Some((&**export, &shown.loaded)),
+            _ => None,
+        };
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        if let Err(why) = self.paces.follow(wanted, &mut jobs) {
             self.fail(why);
         }
     }
@@ -421,7 +438,9 @@ impl Explorer {
                     picture,
                     rate,
                 })) => {
-                    self.export_rate = rate.or(self.export_rate);
+                    if let Some(rate) = rate {
+                        self.paces.learn(rate);
+                    }
                     if let Some(picture) = picture {
                         ctx.copy_image(picture);
                     }

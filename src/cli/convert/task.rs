@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::error::ConvertError;
-use super::names::{Name, face_name};
+use super::names::Name;
 use super::options::ConvertOptions;
 use super::raw::RawFrames;
 use crate::imaging::load::Format;
@@ -13,7 +13,7 @@ use crate::imaging::resample::{
 use crate::imaging::save::{SaveOptions, format_of_path};
 use crate::imaging::{
     Channels, Environment, EnvmapKind, MapShape, OpenHints, SampleKind, Siting, Stored, Transfer,
-    atomic,
+    atomic, face_name,
 };
 use crate::mapping::{Frame, Layout, MappingId};
 
