@@ -109,7 +109,7 @@ fn form_ui(ui: &mut Ui, export: &mut Export) {
     let filters: Vec<Option<Filter>> = std::iter::once(None).chain(Filter::ALL.map(Some)).collect();
     let filter_name = |filter: &Option<Filter>| {
         filter
-            .map_or("area where it gets coarser, else bicubic", Filter::id)
+            .map_or("area if coarser, else bicubic", Filter::id)
             .to_owned()
     };
     row_ui(ui, "filter", &mut export.filter, &filters, filter_name);

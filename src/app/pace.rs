@@ -109,3 +109,32 @@ impl Paces {
         self.job.is_some()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_export_says_more_than_the_last_one_and_that_more_than_nothing() {
+        let export = Export::default();
+        let mut paces = Paces::default();
+        assert_eq!(paces.of(&export), Pace::Unknown);
+        paces.learn(1e6);
+        assert_eq!(paces.of(&export), Pace::OfLast(1e6));
+        let image = crate::imaging::Image::new(2, 1, vec![[0.5; 3]; 2]).unwrap();
+        let loaded = Arc::new(Loaded::from_image(image, &crate::imaging::Progress::new()));
+        paces.known = Some((Key::new(&export, &loaded), Some(2e6)));
+        let elsewhere = Export {
+            path: "other.exr".to_owned(),
+            ..export.clone()
+        };
+        assert_eq!(paces.of(&elsewhere), Pace::Measured(2e6));
+        let finer = Export {
+            height: 1000,
+            ..export.clone()
+        };
+        assert_eq!(paces.of(&finer), Pace::OfLast(1e6));
+        paces.known = Some((Key::new(&export, &loaded), None));
+        assert_eq!(paces.of(&export), Pace::OfLast(1e6));
+    }
+}
