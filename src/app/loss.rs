@@ -314,3 +314,86 @@ impl LossLab {
         self.given_up = None;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::imaging::Image;
+    use crate::imaging::resample::Filter;
+    use crate::mapping::MappingId;
+
+    /// What is measured of a picture with one bright texel.
+    fn measured(settings: LossState) -> Arc<Measured> {
+        let mut texels = vec![[0.25; 3]; 64 * 32];
+        texels[16 * 64 + 32] = [1.0, 0.5, 0.25];
+        let image = Image::new(64, 32, texels).unwrap();
+        let wanted = Wanted {
+            loaded: Shared::new(Loaded::from_image(image, &Progress::new())),
+            rotation: Rotation::NONE,
+            settings,
+        };
+        Measured::of(&wanted, None, &Progress::new()).unwrap()
+    }
+
+    #[test]
+    fn the_picture_is_the_residual_magnified_on_its_charts_and_background_elsewhere() {
+        let measured = measured(LossState {
+            from: MappingId::Cube,
+            from_rows: 8,
+            via: MappingId::Latlong,
+            via_rows: 16,
+            filter: Some(Filter::Bilinear),
+            ..LossState::default()
+        });
+        let [r, g, b] = PICTURE_BACKGROUND;
+        let background = Color32::from_rgb(r, g, b);
+        let picture = measured.picture(1).unwrap();
+        assert_eq!(picture.size, [32, 24]);
+        let at = |picture: &ColorImage, x: usize, y: usize| picture.pixels[y * 32 + x];
+        // Beside the cross, and on a face where nothing is lost.
+        assert_eq!(at(&picture, 1, 1), background);
+        assert_eq!(at(&picture, 28, 12), Color32::BLACK);
+        let worst = measured.loss.difference.worst;
+        // The cross has +z in its second column and row.
+        assert_eq!(worst.chart, 4);
+        let [x, y] = worst.texel.map(|n| n as usize + 8);
+        let light = |factor: u32| at(&measured.picture(factor).unwrap(), x, y);
+        let expected = |factor: f32| {
+            let raster = &measured.loss.difference.residual.rasters()[0];
+            let [r, g, b, _] = raster.light(x as u32, y as u32);
+            let [r, g, b] = srgb::srgb8_from_linear([r, g, b].map(|c| c * factor));
+            Color32::from_rgb(r, g, b)
+        };
+        assert_eq!((light(1), light(2)), (expected(1.0), expected(2.0)));
+        assert_ne!(light(1), light(2));
+    }
+
+    #[test]
+    fn what_is_the_same_is_not_measured_again() {
+        let settings = LossState {
+            from_rows: 8,
+            via_rows: 4,
+            ..LossState::default()
+        };
+        let first = measured(settings);
+        let image = Image::new(2, 1, vec![[0.5; 3]; 2]).unwrap();
+        let wanted = |settings| Wanted {
+            loaded: Shared::new(Loaded::from_image(image.clone(), &Progress::new())),
+            rotation: Rotation::NONE,
+            settings,
+        };
+        let of = wanted(settings);
+        let old = Some((of.clone(), Arc::clone(&first)));
+        let next = |change: &dyn Fn(&mut Wanted)| {
+            let mut wanted = of.clone();
+            change(&mut wanted);
+            Measured::of(&wanted, old.as_ref(), &Progress::new()).unwrap()
+        };
+        let magnified = next(&|w| w.settings.magnification = Some(8));
+        assert!(Arc::ptr_eq(&magnified, &first));
+        let filtered = next(&|w| w.settings.filter = Some(Filter::Nearest));
+        assert!(!Arc::ptr_eq(&filtered, &first) && Arc::ptr_eq(&filtered.map, &first.map));
+        let turned = next(&|w| w.rotation.yaw_deg = 90.0);
+        assert!(!Arc::ptr_eq(&turned.map, &first.map));
+    }
+}
