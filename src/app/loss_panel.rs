@@ -19,6 +19,8 @@ use crate::math::Vec3;
 const WIDE: f32 = 620.0;
 /// Width of the text there.
 const TEXT_WIDTH: f32 = 300.0;
+/// Below this width the text scrolls, or its words would be cut.
+const LEAST_WIDTH: f32 = 200.0;
 /// Below this height a picture shows too little.
 const LOWEST_PICTURE: f32 = 150.0;
 /// A click this near to the worst texel's ring means the texel, in points.
@@ -31,7 +33,7 @@ pub fn loss_ui(ui: &mut Ui, model: &mut Model<'_>) {
     model.sees_loss = true;
     theme::pane_frame(ui).show(ui, |ui| {
         let size = ui.available_size();
-        let scroll = egui::ScrollArea::vertical().auto_shrink([false, false]);
+        let scroll = egui::ScrollArea::both().auto_shrink([false, false]);
         if size.x >= WIDE {
             ui.horizontal_top(|ui| {
                 let column = egui::Layout::top_down(egui::Align::Min);
@@ -43,6 +45,7 @@ pub fn loss_ui(ui: &mut Ui, model: &mut Model<'_>) {
         } else {
             // One below the other; where both have no room, they scroll.
             scroll.show(ui, |ui| {
+                ui.set_max_width(size.x.max(LEAST_WIDTH));
                 let top = ui.cursor().top();
                 text_ui(ui, model);
                 let left = size.y - (ui.cursor().top() - top);
