@@ -117,6 +117,11 @@ impl Explorer {
         &self.state
     }
 
+    /// The surroundings that are shown; `None` until the first ones are there.
+    pub fn surroundings(&self) -> Option<&Surroundings> {
+        self.surroundings.as_ref()
+    }
+
     /// Frames drawn so far.
     pub fn frames(&self) -> u64 {
         self.frames

@@ -471,6 +471,15 @@ mod tests {
             "sixfold convert 'my sky.hdr' environment.ktx2 --to cube --size 512 --to-frame bevy --rotate 90,0,-15 \
              --depth half --mips"
         );
+        let hints = OpenHints {
+            mapping: Some(MappingId::Octahedral),
+            ..OpenHints::default()
+        };
+        let line = bevy.command_line("sky.exr", &hints);
+        assert!(
+            line.contains("environment.ktx2 --from octahedral --to cube"),
+            "{line}"
+        );
         // 512 x 512 x 6 of 8 bytes, and a third more.
         assert_eq!(bevy.bytes(), 512 * 512 * 6 * 4 / 3 * 8);
     }

@@ -77,7 +77,7 @@ fn form_ui(ui: &mut Ui, export: &mut Export) {
     let mut changed = row_ui(ui, "mapping", &mut export.mapping, MappingId::ALL, info);
     let knows = Frame::ALL
         .iter()
-        .filter(|frame| frame.knows(export.mapping));
+        .filter(|frame| frame.knows(export.mapping) && !frame.is_ours);
     let frames: Vec<Option<&'static str>> = std::iter::once(None)
         .chain(knows.map(|frame| Some(frame.id)))
         .collect();

@@ -26,6 +26,9 @@ const PICTURES_WIDTH: f32 = 560.0;
 const GAP: f32 = 10.0;
 const AROUND: f32 = 48.0;
 
+/// Height of what stands above and below the columns: two lines, progress, two lines about mirrors, the command line, buttons.
+const OTHERS: f32 = 160.0;
+
 /// Width of the dialog: both columns, as far as the window has room.
 pub fn reading_width(ui: &Ui) -> f32 {
     let room = ui.ctx().content_rect().width() - AROUND;
@@ -42,10 +45,7 @@ pub fn reading_ui(ui: &mut Ui, model: &mut Model<'_>, file: &mut MapFile) -> boo
         Some(pictures) => pictures.sentence(),
         None => file.path.display().to_string(),
     });
-    // What stands below the columns: two lines about mirrors, the command line, the buttons.
-    const BELOW: f32 = 150.0;
-    let top = ui.cursor().top();
-    let height = (ui.ctx().content_rect().bottom() - AROUND / 2.0 - BELOW - top).clamp(60.0, 520.0);
+    let height = (ui.ctx().content_rect().height() - AROUND - OTHERS).clamp(60.0, 660.0);
     ui.horizontal_top(|ui| {
         ui.vertical(|ui| {
             ui.set_width(FORM_WIDTH);
@@ -140,6 +140,9 @@ fn form_ui(ui: &mut Ui, pictures: &Pictures, taken: &Result<Taken, String>, hint
             hints.siting = siting;
         }
     });
+    if let Some(frame) = said_frame(chosen, hints) {
+        ui.label(RichText::new(format!("{}: {}", frame.name, frame.about)).small());
+    }
     ui.checkbox(
         &mut hints.mirrored,
         "a mirror image: exchange left and right",
@@ -148,9 +151,9 @@ fn form_ui(ui: &mut Ui, pictures: &Pictures, taken: &Result<Taken, String>, hint
         ui.label(RichText::new(note).small());
     }
     if let Some(misfit) = seen.and_then(|taken| taken.misfit.as_ref()) {
-        misfit_ui(ui, misfit, hints);
+        misfit_ui(ui, misfit, chosen, hints);
     }
-    if chosen.is_some_and(|chosen| chosen.mapping.info().chart_count() == 6) {
+    if let Some(chosen) = chosen.filter(|chosen| chosen.mapping.info().chart_count() == 6) {
         faces_ui(ui, chosen, hints);
     }
     let is_changed = !hints.is_empty();
@@ -169,13 +172,20 @@ fn proposals_ui(ui: &mut Ui, proposals: &[Proposal], seen: Option<&Taken>, hints
     for proposal in proposals {
         let is_taken = seen.is_some_and(|taken| {
             let chosen = &taken.chosen;
-            (chosen.mapping, chosen.layout, chosen.frame)
+            let frame = chosen.frame.filter(|frame| !frame.is_ours);
+            (chosen.mapping, chosen.layout, frame)
                 == (proposal.mapping, proposal.layout, proposal.frame)
         });
         let row = ui.radio(is_taken, proposal_name(proposal));
         if row.on_hover_text(&proposal.why).clicked() && !is_taken {
+            // Where another one lies alike, no frame would leave it open which of the two is meant.
+            let is_framed = |other: &&Proposal| {
+                other.frame.is_some()
+                    && (other.mapping, other.layout) == (proposal.mapping, proposal.layout)
+            };
+            let other = proposals.iter().find(is_framed);
             *hints = OpenHints {
-                siting: None,
+                frame: proposal.frame.or(other.and_then(|_| own_frame())),
                 arrange: None,
                 ..proposal.hints(hints)
             };
@@ -237,30 +247,32 @@ fn mapping_rows_ui(ui: &mut Ui, chosen: Option<&Proposal>, hints: &mut OpenHints
     }
 }
 
-/// The program whose orientation the map has.
+/// The program whose orientation the map has; Sixfold's own where nobody says otherwise.
 fn frame_row_ui(ui: &mut Ui, chosen: Option<&Proposal>, hints: &mut OpenHints) {
     let Some(mapping) = hints.mapping.or(chosen.map(|chosen| chosen.mapping)) else {
         return;
     };
-    let mut frame = hints.frame.or(chosen.and_then(|chosen| chosen.frame));
+    let mut frame = said_frame(chosen, hints).or(own_frame());
     let known = Frame::ALL.iter().filter(|frame| frame.knows(mapping));
-    let frames: Vec<Option<&'static Frame>> =
-        std::iter::once(None).chain(known.map(Some)).collect();
-    let name =
-        |frame: &Option<&'static Frame>| frame.map_or("Sixfold's own", |f| f.name).to_owned();
+    let frames: Vec<Option<&'static Frame>> = known.map(Some).collect();
+    let name = |frame: &Option<&'static Frame>| frame.map_or("", |frame| frame.name).to_owned();
     if row_ui(ui, "frame", &mut frame, &frames, name) {
-        hints.frame = frame;
+        // Both say which face is which.
+        (hints.frame, hints.arrange) = (frame, None);
         hints.siting = None;
-    }
-    if let Some(frame) = frame {
-        ui.label("");
-        ui.label(RichText::new(frame.about).small());
-        ui.end_row();
     }
 }
 
+fn own_frame() -> Option<&'static Frame> {
+    Frame::ALL.iter().find(|frame| frame.is_ours)
+}
+
+fn said_frame(chosen: Option<&Proposal>, hints: &OpenHints) -> Option<&'static Frame> {
+    hints.frame.or(chosen.and_then(|chosen| chosen.frame))
+}
+
 /// How the six faces would meet.
-fn misfit_ui(ui: &mut Ui, misfit: &Solution, hints: &mut OpenHints) {
+fn misfit_ui(ui: &mut Ui, misfit: &Solution, chosen: Option<&Proposal>, hints: &mut OpenHints) {
     ui.horizontal_wrapped(|ui| {
         for (name, arrangement, sentence) in [
             (
@@ -274,22 +286,36 @@ fn misfit_ui(ui: &mut Ui, misfit: &Solution, hints: &mut OpenHints) {
                 misfit.mirrored_sentence(),
             ),
         ] {
-            if ui.button(name).on_hover_text(sentence).clicked() {
-                hints.arrange = Some(arrangement);
+            if ui.button(name).on_hover_text(sentence).clicked()
+                && let Some(chosen) = chosen
+            {
+                arrange(hints, chosen, arrangement);
             }
         }
     });
 }
 
+/// Says what each picture shows, instead of a frame, whose order of the pictures goes into it.
+fn arrange(hints: &mut OpenHints, chosen: &Proposal, arrangement: Arrangement) {
+    let order = chosen.frame.and_then(|frame| frame.order(chosen.layout));
+    hints.arrange = Some(order.map_or(arrangement, |order| arrangement.by_place(order)));
+    hints.frame = None;
+    hints.siting = Some(chosen.siting);
+}
+
 /// What each of the six pictures shows, where the user says it.
-fn faces_ui(ui: &mut Ui, chosen: Option<&Proposal>, hints: &mut OpenHints) {
+fn faces_ui(ui: &mut Ui, chosen: &Proposal, hints: &mut OpenHints) {
     let mut by_face = hints.arrange.is_some();
     if ui
         .checkbox(&mut by_face, "say what each face shows")
         .changed()
     {
-        let framed = chosen.and_then(|chosen| chosen.frame?.arrangement());
-        hints.arrange = by_face.then(|| framed.unwrap_or_default());
+        if by_face {
+            let framed = chosen.frame.and_then(Frame::arrangement);
+            arrange(hints, chosen, framed.unwrap_or_default());
+        } else {
+            hints.arrange = None;
+        }
     }
     let Some(arrangement) = &mut hints.arrange else {
         return;
@@ -325,14 +351,18 @@ fn face_row_ui(ui: &mut Ui, label: usize, arrangement: &mut Arrangement) {
             (true, _) => format!("mirrored, {degrees}°"),
         }
     };
-    ComboBox::from_id_salt(("lies", label))
+    let lies = ComboBox::from_id_salt(("lies", label))
         .width(110.0)
         .selected_text(name(turn))
         .show_ui(ui, |ui| {
             for other in Turn::all() {
                 ui.selectable_value(&mut turn, other, name(other));
             }
-        });
+        })
+        .response;
+    ui.ctx().accesskit_node_builder(lies.id, |node| {
+        node.set_label(format!("picture {} lies", face(label as u32)));
+    });
     ui.end_row();
     // Each face is shown once: the picture that showed it shows what this one did.
     if let Some(other) = arrangement.label_of(chart) {
@@ -352,16 +382,24 @@ fn pictures_ui(ui: &mut Ui, room: Vec2, seen: Option<&Taken>, labelled: Option<&
     let width = (room.x - GAP) / 1.5;
     let height = (room.y / 2.0 - TITLE).min(0.75 * width).max(24.0);
     let cross = vec2(height / 0.75, height);
+    let seams = seen.and_then(|taken| taken.chosen.score);
+    let title = seams.map_or_else(
+        || "This map".to_owned(),
+        |score| format!("This map, seams {score:.2}"),
+    );
     let rows = [
-        ("This map", seen.map(|taken| &taken.shown)),
-        ("The labelled environment, the right way round", labelled),
+        (title, seen.map(|taken| &taken.shown)),
+        (
+            "The labelled environment, the right way round".to_owned(),
+            labelled,
+        ),
     ];
     for (title, shown) in rows {
-        ui.label(RichText::new(title).strong());
+        ui.label(RichText::new(&title).strong());
         let whole = vec2(1.5 * cross.x + GAP, cross.y);
         let (rect, response) = ui.allocate_exact_size(whole, Sense::hover());
         response
-            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, shown.is_some(), title));
+            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, shown.is_some(), &title));
         let Some(shown) = shown else { continue };
         cross_ui(ui, Rect::from_min_size(rect.min, cross), shown.cross.id());
         let ball = Rect::from_center_size(

@@ -123,12 +123,11 @@ impl MapShape {
     /// Takes the pictures in a row, a column or two rows to be in a program's order. Where the cells stand for the labels, as
     /// in a cross or six files, the order says nothing.
     pub fn apply_order(&mut self, frame: &Frame, layout: Layout) {
-        if let Some(cube) = frame.cube
+        if let Some(order) = frame.order(layout)
             && self.charts.len() == 6
-            && matches!(layout, Layout::Row | Layout::Column | Layout::ThreeByTwo)
         {
             let in_order = self.charts.clone();
-            for (label, placement) in cube.order.into_iter().zip(in_order) {
+            for (label, placement) in order.into_iter().zip(in_order) {
                 self.charts[label] = placement;
             }
         }

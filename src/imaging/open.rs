@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::detect::{MEETS, Proposal, plain_shape};
 use super::load::Format;
+use super::seams::seams;
 use super::solver::{Solution, solve};
 use super::{
     BadTexels, EnvironmentMap, LoadError, LoadProblem, MapShape, OpenHints, Originals, Pictures,
@@ -89,6 +90,11 @@ impl Pictures {
         if chosen.mapping == MappingId::Cube && !is_said {
             notes.push("taken as `cube`; pixels cannot tell it from `eac` and `ccm`".to_owned());
         }
+        let (shape, misfit) = shaped(&mut chosen, hints, rasters).map_err(untold)?;
+        // Of what was said it is not known yet, and faces that are arranged in another way meet in another way.
+        if !hints.is_empty() {
+            chosen.score = seams(&shape, rasters).and_then(|seams| seams.score());
+        }
         if let Some(score) = chosen
             .score
             .filter(|score| *score > MEETS && rasters.len() == 1)
@@ -98,7 +104,6 @@ impl Pictures {
                 chosen.mapping
             ));
         }
-        let (shape, misfit) = shaped(&mut chosen, hints, rasters).map_err(untold)?;
         if let Some(solution) = &misfit {
             let sentence = solution.sentence();
             notes.push(format!("the six faces do not meet as labelled: {sentence}"));

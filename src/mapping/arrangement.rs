@@ -80,6 +80,12 @@ impl Arrangement {
         }))
     }
 
+    /// The same for pictures that are labelled by their places, which a program has filled in this order of labels; each
+    /// label must come once.
+    pub fn by_place(&self, order: [usize; 6]) -> Self {
+        Self(order.map(|label| self.0[label]))
+    }
+
     /// The axes of which this is the arrangement, when a signed permutation does it.
     pub fn axes(&self) -> Option<Axes> {
         Axes::all().find(|axes| Self::from_axes(*axes) == *self)
