@@ -218,6 +218,13 @@ impl LossLab {
         Ok(())
     }
 
+    /// Forgets what was measured of other surroundings, which would be kept in memory for nobody.
+    pub fn forget_others(&mut self, loaded: &Arc<Loaded>) {
+        let loaded = Shared::from(Arc::clone(loaded));
+        self.shown.take_if(|shown| shown.wanted.loaded != loaded);
+        self.given_up.take_if(|(of, _)| of.loaded != loaded);
+    }
+
     /// Waits for what is wanted: for pictures.
     pub fn complete(&mut self, wanted: Option<Wanted>, ctx: &Context) {
         if let Some(wanted) = wanted.filter(|wanted| self.is_missing(wanted)) {

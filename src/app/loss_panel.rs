@@ -20,7 +20,7 @@ const WIDE: f32 = 620.0;
 /// Width of the text there.
 const TEXT_WIDTH: f32 = 300.0;
 /// Below this width the text scrolls, or its words would be cut.
-const LEAST_WIDTH: f32 = 200.0;
+const LEAST_WIDTH: f32 = 140.0;
 /// Below this height a picture shows too little.
 const LOWEST_PICTURE: f32 = 150.0;
 /// A click this near to the worst texel's ring means the texel, in points.

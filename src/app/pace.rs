@@ -65,6 +65,10 @@ impl Paces {
     ) -> Result<(), String> {
         let wanted = wanted.map(|(export, loaded)| Key::new(export, loaded));
         self.job.take_if(|(key, _)| Some(&*key) != wanted.as_ref());
+        if wanted.is_none() {
+            // It would keep the surroundings in memory for nobody.
+            self.known = None;
+        }
         let is_known = |key: &Key| self.known.as_ref().is_some_and(|(known, _)| known == key);
         let Some(key) = wanted.filter(|key| self.job.is_none() && !is_known(key)) else {
             return Ok(());

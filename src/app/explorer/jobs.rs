@@ -272,6 +272,9 @@ impl Explorer {
     pub(super) fn measure_loss(&mut self, ctx: &Context) {
         let seen = self.surroundings.as_ref().filter(|_| self.sees_loss);
         let wanted = seen.map(|shown| Wanted::new(&self.state, &shown.loaded));
+        if let (None, Some(shown)) = (&wanted, &self.surroundings) {
+            self.loss.forget_others(&shown.loaded);
+        }
         if self.complete {
             self.loss.complete(wanted, ctx);
             return;
