@@ -116,6 +116,21 @@ fn an_export_is_chosen_by_program_and_opens_again() {
     ui.get_by_label_contains("--to cube --size 512 --to-frame bevy --rotate 90,0,0");
     // A small one has been timed, without a job that anyone sees.
     ui.get_by_label_contains("s, judging by a small one");
+    let choose = |ui: &mut Ui, list: &str, item: &str| {
+        ui.get_by_role_and_label(egui::Role::ComboBox, list).click();
+        settle(ui);
+        ui.get_by_role_and_label(egui::Role::Button, item).click();
+        settle(ui);
+    };
+    assert!(ui.query_by_label_contains("--filter").is_none());
+    choose(&mut ui, "filter", "lanczos");
+    ui.get_by_label_contains("--filter lanczos");
+    ui.get_by_label("Blender").click();
+    settle(&mut ui);
+    assert!(ui.query_by_label_contains("--envmap").is_none());
+    choose(&mut ui, "frame", "OpenEXR");
+    ui.get_by_label_contains("--to latlong --size 512 --layout single --to-frame openexr --rotate 90,0,0 --filter lanczos");
+    ui.get_by_label_contains("--envmap");
     let path = folder.path().join("sky.ktx2");
     let export = Export {
         mapping: MappingId::Cube,

@@ -234,6 +234,12 @@ fn a_hidden_laboratory_computes_nothing() {
     settle(&mut ui);
     assert_ne!(measured(&ui), before);
     assert!(window_kit::rests(&mut ui));
+    // Of surroundings that are gone, a hidden laboratory keeps nothing.
+    run(&mut ui, Action::SetLoss(slow));
+    assert!(ui.state().explorer().loss().shown().is_some(), "control");
+    let other = Environment::DirectionColor;
+    run(&mut ui, Command::LoadEnvironment(other));
+    assert!(ui.state().explorer().loss().shown().is_none());
 }
 
 #[test]
