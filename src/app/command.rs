@@ -40,6 +40,8 @@ pub enum Command {
     Export(Box<Export>),
     /// Stop a running job.
     Cancel(u64),
+    /// Measure again what was given up.
+    MeasureLoss,
     /// Take a message away.
     Dismiss(usize),
     /// Put text on the clipboard.

@@ -16,8 +16,10 @@ use super::files::Opened;
 use super::frame::frame_of;
 use super::history::History;
 use super::job::Job;
+use super::loss::LossLab;
 use super::model::{Message, Model, Surroundings};
 use super::object::{Jobs, ObjectData};
+use super::pace::Paces;
 use super::panes;
 use super::picture;
 use super::reading::{Reading, Refusal};
@@ -45,6 +47,8 @@ pub struct Explorer {
     views: Views,
     tree: egui_tiles::Tree<Pane>,
     object: ObjectData,
+    loss: LossLab,
+    sees_loss: bool,
     surroundings: Option<Surroundings>,
     loading: Option<Job<Result<Loading, Refusal>>>,
     opening: Option<Job<Result<Opened, String>>>,
@@ -53,8 +57,7 @@ pub struct Explorer {
     asked: Option<Asked>,
     /// The file of the dialog about how it is read.
     reading: Option<Reading>,
-    /// Texels a second that the last export made.
-    export_rate: Option<f64>,
+    paces: Paces,
     messages: Vec<Message>,
     dialog: Option<Dialog>,
     next_job: u64,
@@ -83,13 +86,15 @@ impl Explorer {
             tree: panes::tree_of(&state),
             object: ObjectData::new(&state),
             history: History::default(),
+            loss: LossLab::default(),
+            sees_loss: false,
             surroundings: None,
             loading: None,
             opening: None,
             errands: Vec::new(),
             asked: None,
             reading: None,
-            export_rate: None,
+            paces: Paces::default(),
             messages: Vec::new(),
             dialog: None,
             next_job: 1,
@@ -132,6 +137,11 @@ impl Explorer {
         &self.messages
     }
 
+    /// What the loss laboratory has measured.
+    pub fn loss(&self) -> &LossLab {
+        &self.loss
+    }
+
     /// What the renderer did last.
     pub fn report(&self) -> &crate::gpu::Report {
         self.renderer.report()
@@ -146,6 +156,8 @@ impl Explorer {
     pub fn is_busy(&self) -> bool {
         self.pending
             || self.object.is_busy()
+            || self.loss.is_busy()
+            || self.paces.is_busy()
             || self.loading.is_some()
             || self.opening.is_some()
             || !self.errands.is_empty()
@@ -214,6 +226,8 @@ impl Explorer {
             self.run(&ctx, command);
         }
         self.draw_views(&ctx, &laid_out);
+        self.measure_loss(&ctx);
+        self.measure_pace(&ctx);
         // What was just changed is seen in the next frame; a still window asks for none.
         let draws_on = self.pending && !self.waits;
         if (any && before != self.state) || draws_on || self.texel_color.is_waiting() {
@@ -250,12 +264,14 @@ impl Explorer {
             target: self.object.target(),
             surroundings: self.surroundings.as_ref(),
             story: story::steps_if_open(&self.state, self.object.target()),
+            loss: &self.loss,
+            sees_loss: false,
             texel_color: self.probed,
             plan: &self.plan,
             frames: self.frames,
             adapter: &adapter,
             jobs: &jobs,
-            export_rate: self.export_rate,
+            paces: &self.paces,
             reading: self.reading.as_ref(),
             messages: &self.messages,
             gpu: &self.gpu,
@@ -264,7 +280,9 @@ impl Explorer {
             laid_out: Vec::new(),
         };
         show(&mut model);
-        (model.commands, model.laid_out)
+        let (commands, laid_out, sees_loss) = (model.commands, model.laid_out, model.sees_loss);
+        self.sees_loss = sees_loss;
+        (commands, laid_out)
     }
 
     /// Brings the textures of the views that are seen up to date, and nothing else.
@@ -359,6 +377,7 @@ impl Explorer {
             Command::MakePicture(request) => self.make_picture(ctx, request),
             Command::Export(export) => self.export(ctx, *export),
             Command::Cancel(id) => self.cancel(id),
+            Command::MeasureLoss => self.loss.try_again(),
             Command::Dismiss(index) => {
                 if index < self.messages.len() {
                     self.messages.remove(index);

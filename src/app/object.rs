@@ -459,6 +459,7 @@ pub fn job_line<T: Send + 'static>(job: &Job<T>) -> JobLine {
         id: job.id,
         title,
         fraction: job.progress.fraction(),
+        left: job.progress.left(),
     }
 }
 

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::computed::{self, Pattern};
 use super::file::short_name;
-use super::load::{self, LoadError, Loaded};
-use super::{MapFile, OpenHints, Pictures, Progress};
+use super::load::{self, LoadError, LoadProblem, Loaded};
+use super::{EnvironmentMap, MapFile, OpenHints, Pictures, Progress, Stored, open_map};
 
 /// The colours of the six faces +x -x +y -y +z -z as sRGB: three hues of the palette that Okabe and Ito chose for every kind
 /// of colour vision, one pair a hue family, the positive face darker than the negative one.
@@ -97,6 +97,31 @@ impl Environment {
                 let path = std::path::absolute(id).unwrap_or_else(|_| PathBuf::from(id));
                 Self::File(path.into())
             })
+    }
+
+    /// The map as conversions take it, and how its file stores a sample. A file's has its own mapping and keeps every bit; a
+    /// built-in one is a latlong of floats, a computed one with at least `rows` rows.
+    ///
+    /// # Errors
+    /// When a file does not open or the job is cancelled.
+    pub fn map(
+        &self,
+        rows: u32,
+        progress: &Progress,
+    ) -> Result<(EnvironmentMap, Stored), LoadError> {
+        if let Self::File(MapFile { path, hints }) = self {
+            let opened = open_map(std::slice::from_ref(path), hints, progress)?;
+            return Ok((opened.map, opened.stored));
+        }
+        // Small ones are computed larger than needed: their lines are drawn for the usual size.
+        let rows = rows.clamp(computed::DEFAULT_HEIGHT, load::MOST_HEIGHT);
+        let image = self.image_at(rows, progress)?.image;
+        let map = EnvironmentMap::from_latlong(image).map_err(|error| LoadError {
+            problem: LoadProblem::Unclear(error.to_string()),
+            name: self.id(),
+        })?;
+        // Photographs are stored so, and no pattern needs more.
+        Ok((map, Stored::Half))
     }
 
     /// The latlong picture, computed ones at [`computed::DEFAULT_HEIGHT`].

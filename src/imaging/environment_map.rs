@@ -220,8 +220,16 @@ impl EnvironmentMap {
     /// # Errors
     /// As [`EnvironmentMap::new`].
     pub fn of_latlong(image: &Image) -> Result<Self, ShapeError> {
-        let samples = Samples::F32(image.pixels().as_flattened().to_vec());
+        Self::from_latlong(image.clone())
+    }
+
+    /// As [`EnvironmentMap::of_latlong`], without a copy.
+    ///
+    /// # Errors
+    /// As [`EnvironmentMap::new`].
+    pub fn from_latlong(image: Image) -> Result<Self, ShapeError> {
         let size = [image.width(), image.height()];
+        let samples = Samples::F32(image.into_pixels().into_flattened());
         let raster = Raster::new(size, Channels::Rgb, Transfer::Linear, samples);
         Self::from_layout(
             MappingId::Latlong,

@@ -55,6 +55,7 @@ mod unfold;
 pub use container::{Container, Level};
 pub use environment::{Environment, FACE_COLORS};
 pub use environment_map::{EnvironmentMap, MapShape, Placement, ShapeError, Siting};
+pub use face_files::face_name;
 pub(crate) use file::{ReadProblem, read_whole};
 pub use file::{open_regular, short_name};
 pub use hints::{MapFile, OpenHints};

@@ -11,6 +11,7 @@ use crate::app::dialogs::{Dialog, ball_from};
 use crate::app::export::Export;
 use crate::app::files::{self, Opened};
 use crate::app::job::{Job, Outcome};
+use crate::app::loss::Wanted;
 use crate::app::model::{JobLine, Surroundings};
 use crate::app::object::{BodyKey, Jobs, News, job_line};
 use crate::app::panes;
@@ -72,6 +73,7 @@ impl Explorer {
             .chain(reading)
             .chain(self.errands.iter().map(job_line))
             .chain(self.object.jobs())
+            .chain(self.loss.job())
             .collect()
     }
 
@@ -165,13 +167,14 @@ impl Explorer {
 
     /// Writes the environment for another program.
     pub(super) fn export(&mut self, ctx: &Context, export: Export) {
-        let Some(surroundings) = self.surroundings.clone() else {
+        let Some(shown) = &self.surroundings else {
             self.fail("the environment is still loading; export it when it is there".to_owned());
             return;
         };
+        let environment = shown.environment.clone();
         self.send(ctx, "exporting the environment", move |progress| {
             let start = std::time::Instant::now();
-            export.write(&surroundings.loaded.image, progress)?;
+            export.write(&environment, progress)?;
             Ok(Errand {
                 message: format!("The environment is in {}", export.path),
                 picture: None,
@@ -227,6 +230,7 @@ impl Explorer {
             self.keep_shown();
         }
         self.object.cancel(id);
+        self.loss.cancel(id);
         self.opening.take_if(|job| job.id == id);
         let is_reading = |reading: &Reading| reading.job().is_some_and(|job| job.id == id);
         if self.reading.as_ref().is_some_and(is_reading) {
@@ -240,6 +244,8 @@ impl Explorer {
         self.poll_opening(ctx);
         self.poll_errands(ctx);
         self.poll_asked(ctx);
+        self.loss.poll(ctx);
+        self.paces.poll();
         self.follow_reading(ctx);
         for news in self.object.poll() {
             match news {
@@ -259,6 +265,41 @@ impl Explorer {
                 News::PathsFailed(why) => self.fail(why),
                 News::Note(note) => self.tell(note),
             }
+        }
+    }
+
+    /// Measures the loss that is asked for while its pane is seen, and nothing while it is hidden.
+    pub(super) fn measure_loss(&mut self, ctx: &Context) {
+        let seen = self.surroundings.as_ref().filter(|_| self.sees_loss);
+        let wanted = seen.map(|shown| Wanted::new(&self.state, &shown.loaded));
+        if let (None, Some(shown)) = (&wanted, &self.surroundings) {
+            self.loss.forget_others(&shown.loaded);
+        }
+        if self.complete {
+            self.loss.complete(wanted, ctx);
+            return;
+        }
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        if let Err(why) = self.loss.follow(wanted, &mut jobs) {
+            self.fail(why);
+        }
+    }
+
+    /// Measures how fast the export of the open dialog will be.
+    pub(super) fn measure_pace(&mut self, ctx: &Context) {
+        let wanted = match (&self.dialog, &self.surroundings) {
+            (Some(Dialog::Export(export)), Some(shown)) => Some((&**export, &shown.loaded)),
+            _ => None,
+        };
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        if let Err(why) = self.paces.follow(wanted, &mut jobs) {
+            self.fail(why);
         }
     }
 
@@ -400,7 +441,9 @@ impl Explorer {
                     picture,
                     rate,
                 })) => {
-                    self.export_rate = rate.or(self.export_rate);
+                    if let Some(rate) = rate {
+                        self.paces.learn(rate);
+                    }
                     if let Some(picture) = picture {
                         ctx.copy_image(picture);
                     }

@@ -4,7 +4,7 @@ use std::io;
 
 use crate::imaging::resample::ResampleError;
 use crate::imaging::save::SaveError;
-use crate::imaging::{LoadError, LoadProblem, ShapeError, atomic};
+use crate::imaging::{LoadError, LoadProblem, atomic};
 
 /// Each message is one line: what is wrong, what to do, the path last.
 #[derive(Debug, thiserror::Error)]
@@ -18,9 +18,6 @@ pub(in crate::cli) enum ConvertError {
     /// Which map it is cannot be told.
     #[error("{} (--from, --from-layout): {}", .0.problem, .0.name)]
     Untold(LoadError),
-    /// Its pictures are not what they are said to be.
-    #[error("{0}: {1}")]
-    Shape(ShapeError, String),
     /// The conversion cannot be done.
     #[error(transparent)]
     Resample(#[from] ResampleError),
