@@ -36,7 +36,7 @@ const FENCED_CRATES: [(&str, &[&str]); 21] = [
     ("clap", &["cli"]),
     ("image", &["imaging"]),
     ("indicatif", &["cli"]),
-    ("pulp", &["imaging"]),
+    ("pulp", &["math", "mapping", "imaging"]),
     ("rayon", &["imaging"]),
     ("ruzstd", &["imaging"]),
     ("exr", &["imaging"]),

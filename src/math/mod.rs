@@ -5,6 +5,7 @@ mod branchless;
 mod double_word;
 mod dual;
 pub mod inputs;
+mod isa;
 mod real;
 mod rotation;
 pub mod ulp;
@@ -16,6 +17,7 @@ pub use arctan::{
 pub use branchless::{atan2_turns, floor_and_rest, nearest_whole, sin_cos_eighth};
 pub use double_word::DoubleWord;
 pub use dual::Dual;
+pub use isa::Isa;
 pub use real::{Real, Textbook};
 pub use rotation::{BadRotation, Rotation, Rows, turned};
 pub use vec3::{Vec3, angle_rad, unit_in_plane};

@@ -33,12 +33,12 @@ mod levels;
 mod lookups;
 mod plan;
 mod report;
-mod simd;
 mod stored;
 mod strips;
 mod texels;
 
-pub use conversion::{Conversion, Filter, FilteredIn, Isa};
+pub use crate::math::Isa;
+pub use conversion::{Conversion, Filter, FilteredIn};
 pub use equal::{chart_size, equal_height, rotation_of_viewer};
 pub use levels::levels;
 pub use plan::{MOST_SIDE, Plan};
