@@ -10,7 +10,7 @@
 //! where the error peaks, repeat. Coefficients are rounded to f32 one after another, lowest power first, and the
 //! remaining ones are fitted anew after each rounding, so that they make up for it.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_4};
 use std::fmt::Write as _;
 use std::io::Write as _;
 
@@ -76,6 +76,36 @@ pub const COS: Fit = Fit {
     first_degree: 2,
 };
 
+/// Half of an edge of the continuous cube map as seen from the centre, in radians: atan(1/sqrt 2).
+const HALF_EDGE_RAD: f64 = 0.615_479_708_670_387_3;
+
+/// The continuous cube map's place along an edge: atan(a/sqrt 2)/(2 alpha) = a P(s). Not the whole of [0, 1] is asked of
+/// the arctangent, so a coefficient less will do.
+pub const ALONG: Fit = Fit {
+    constant: "ALONG_COEFFICIENTS",
+    end: 1.0,
+    reference: |x| (x * FRAC_1_SQRT_2).atan() / (2.0 * HALF_EDGE_RAD),
+    target: |x| (x * FRAC_1_SQRT_2).atan() / (2.0 * HALF_EDGE_RAD) / x,
+    gain: |x| x,
+    evaluate: [along::<false>, along::<true>],
+    counts: 2..=8,
+    chosen: 7,
+    first_degree: 1,
+};
+
+/// What the continuous cube map multiplies a latitude by: 1/(2 atan(1/sqrt(1 + s))) = P(s).
+pub const REACH: Fit = Fit {
+    constant: "REACH_COEFFICIENTS",
+    end: 1.0,
+    reference: |x| 0.5 / (1.0 + x * x).sqrt().recip().atan(),
+    target: |x| 0.5 / (1.0 + x * x).sqrt().recip().atan(),
+    gain: |_| 1.0,
+    evaluate: [reach::<false>, reach::<true>],
+    counts: 2..=8,
+    chosen: 7,
+    first_degree: 0,
+};
+
 /// a b + c, rounded once (as a driver may) or twice.
 fn multiply_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
@@ -95,6 +125,14 @@ fn atan<const FUSED: bool>(coefficients: &[f32], x: f32) -> f32 {
 
 fn sin<const FUSED: bool>(coefficients: &[f32], x: f32) -> f32 {
     multiply_add::<FUSED>(x, horner::<FUSED>(coefficients, x * x), x)
+}
+
+fn along<const FUSED: bool>(coefficients: &[f32], x: f32) -> f32 {
+    x * horner::<FUSED>(coefficients, x * x)
+}
+
+fn reach<const FUSED: bool>(coefficients: &[f32], x: f32) -> f32 {
+    horner::<FUSED>(coefficients, x * x)
 }
 
 fn cos<const FUSED: bool>(coefficients: &[f32], x: f32) -> f32 {
@@ -291,7 +329,7 @@ fn solve(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
 /// The tables and the constants.
 pub fn report(stride: usize) -> Result<String, std::fmt::Error> {
     let mut text = String::new();
-    for fit in [&ATAN, &SIN, &COS] {
+    for fit in [&ATAN, &SIN, &COS, &ALONG, &REACH] {
         let counts: Vec<usize> = fit.counts.clone().collect();
         let sets: Vec<Vec<f32>> = counts.iter().map(|&count| fit.derive(count)).collect();
         writeln!(
@@ -326,6 +364,9 @@ pub fn report(stride: usize) -> Result<String, std::fmt::Error> {
                 "{degree:6}  {exact:10.2e}  {absolute:11.2e}  {absolute_fused:9.2e}"
             )?;
             writeln!(text, "  {ulp:11.3}  {ulp_fused:9.3}  {end}{mark}")?;
+        }
+        for set in &sets {
+            writeln!(text, "{set:?}")?;
         }
         writeln!(text, "{}\n", fit.source())?;
     }

@@ -2,6 +2,7 @@
 //!
 //! Chart 0 looks along +z, chart 1 along -z; both are what an observer inside sees. Exactly conformal, area ratio 4.
 
+use super::evaluator;
 use super::{ChartPoint, Claims, Domain, Layout, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
@@ -19,8 +20,9 @@ impl Mapping for Paraboloid {
         layout: Layout::Pair,
         claims: Claims {
             conformal: true,
-            ..MappingInfo::PLAIN.claims
+        ..MappingInfo::PLAIN.claims
         },
+            evaluators: || evaluator::plain_and::<Paraboloid>(&[]),
         ..MappingInfo::PLAIN
     };
 

@@ -96,7 +96,7 @@ pub(super) fn printed_eq6<R: Textbook>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
 
 /// The listing of Appendix A word for word in f32, as the app's chart point. `None` where no row of its table matches
 /// (texture index 6, black): `bool(ceil(d))` is true for d = -1, so the middles of six edges have no face.
-pub(super) fn shader(dir: Vec3<f32>) -> Option<ChartPoint<f32>> {
+pub(in crate::mapping) fn shader(dir: Vec3<f32>) -> Option<ChartPoint<f32>> {
     let r = dir.scaled_direction()?.normalized();
     let l = 2f32.sqrt() / 2.0;
     let check = |x: f32, y: f32, z: f32| (x * r.x + y * r.y + z * r.z).ceil() != 0.0;
@@ -118,10 +118,28 @@ pub(super) fn shader(dir: Vec3<f32>) -> Option<ChartPoint<f32>> {
     } else {
         return None;
     };
-    let Vec3 { x, y, z } = rotate(chart, r);
+    Some(from_s_t(chart, r))
+}
+
+/// The chart point of a unit direction on a chart by the shader's formulas: Eq. 5, and Eq. 6 put right.
+pub(in crate::mapping) fn from_s_t(chart: u32, unit: Vec3<f32>) -> ChartPoint<f32> {
+    let Vec3 { x, y, z } = rotate(chart, unit);
     let s = 0.5 - (x / y).library_atan2(2f32.sqrt()) / (2.0 * (1.0 / 3f32.sqrt()).asin());
     let t = (1.0 + z.asin() / (1.0 / (2.0 + (x / y) * (x / y)).sqrt()).asin()) / 2.0;
-    Some(chart_point(chart, s, t))
+    chart_point(chart, s, t)
+}
+
+/// S and T of a chart point, and how its direction in the +y face is turned back.
+pub(in crate::mapping) fn to_s_t(
+    ChartPoint { chart, u, v }: ChartPoint<f32>,
+) -> (f32, f32, impl Fn(Vec3<f32>) -> Vec3<f32>) {
+    let (s, t) = match chart {
+        0 => (1.0 - v, 1.0 - u),
+        1 => (v, u),
+        5 => (u, 1.0 - v),
+        _ => (1.0 - u, v),
+    };
+    (s, t, move |dir| rotate_back(chart, dir))
 }
 
 /// The app's chart point of S and T on a chart.
