@@ -5,15 +5,19 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// A layer and those that it may use. `main.rs` puts `app` and `cli` together; `lib.rs` lists them.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 10] = [
     ("math", &[]),
     ("mapping", &["math"]),
     ("optics", &["math"]),
     ("scene", &["math", "optics"]),
     ("imaging", &["math", "mapping"]),
+    ("lab", &["math", "mapping", "imaging"]),
     ("meshes", &["math", "scene", "imaging"]),
     ("gpu", &["math", "mapping", "optics", "scene", "imaging"]),
-    ("cli", &["math", "mapping", "optics", "scene", "imaging"]),
+    (
+        "cli",
+        &["math", "mapping", "optics", "scene", "imaging", "lab"],
+    ),
     (
         "app",
         &[
@@ -37,7 +41,7 @@ const FENCED_CRATES: [(&str, &[&str]); 21] = [
     ("image", &["imaging"]),
     ("indicatif", &["cli"]),
     ("pulp", &["math", "mapping", "imaging"]),
-    ("rayon", &["imaging"]),
+    ("rayon", &["imaging", "lab"]),
     ("ruzstd", &["imaging"]),
     ("exr", &["imaging"]),
     ("gltf", &["meshes"]),

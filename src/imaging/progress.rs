@@ -21,12 +21,14 @@ pub enum Stage {
     Writing,
     /// What cannot be shown is counted and replaced.
     Checking,
+    /// Times are taken and errors found.
+    Measuring,
     /// The result is ready.
     Done,
 }
 
 impl Stage {
-    const ALL: [Self; 8] = [
+    const ALL: [Self; 9] = [
         Self::Waiting,
         Self::Reading,
         Self::Decoding,
@@ -34,6 +36,7 @@ impl Stage {
         Self::Converting,
         Self::Writing,
         Self::Checking,
+        Self::Measuring,
         Self::Done,
     ];
 
@@ -47,6 +50,7 @@ impl Stage {
             Self::Converting => "converting",
             Self::Writing => "writing",
             Self::Checking => "checking",
+            Self::Measuring => "measuring",
             Self::Done => "done",
         }
     }
