@@ -1,8 +1,10 @@
 //! How far results are from the reference in double precision.
 
 use crate::mapping::{ChartPoint, DirList, Dirs, Domain, MappingId, NOWHERE, PointList, Points};
-use crate::math::ulp::ulp_f32;
 use crate::math::{Vec3, angle_rad};
+
+/// Unit in the last place of an f32 in [1/2, 1).
+const ULP: f64 = 0.5 * f32::EPSILON as f64;
 
 /// Errors over many inputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,8 +13,8 @@ pub struct Errors {
     pub max_rad: f64,
     /// Root of the mean square of that angle.
     pub rms_rad: f64,
-    /// Largest difference of a coordinate in units in the last place of f32: of u and v at their exact value, of a unit
-    /// vector's components at 1.
+    /// Largest difference of a coordinate in units in the last place that f32 has just below 1: u and v are computed from 0
+    /// and from 1 alike, and so are the components of a unit vector.
     pub max_ulp: f64,
     /// Largest distance in texels, at the given number of texels along a chart's height.
     pub max_texels: f64,
@@ -94,10 +96,9 @@ impl ForwardTruth {
             let is_near = point.chart == exact.chart && step.iter().all(|c| c.abs() < 0.25);
             // On the other side of a seam coordinates cannot be compared: the angle stands for them.
             let (ulp, texels) = if is_near {
-                let ulp = |step: f64, at: f64| step.abs() / f64::from(ulp_f32(at as f32));
                 let [across, down] = [self.map.info().aspect, 1.0].map(|c| c * f64::from(texels));
                 (
-                    ulp(step[0], exact.u).max(ulp(step[1], exact.v)),
+                    step[0].abs().max(step[1].abs()) / ULP,
                     (step[0] * across).hypot(step[1] * down),
                 )
             } else {
@@ -144,7 +145,7 @@ impl InverseTruth {
                 continue;
             };
             let rad = angle_rad(dir, exact);
-            let component = |i: usize| (dir[i] - exact[i]).abs() / f64::from(f32::EPSILON);
+            let component = |i: usize| (dir[i] - exact[i]).abs() / ULP;
             let ulp = component(0).max(component(1)).max(component(2));
             errors.see(rad, ulp, rad / texel_rad(self.map, texels), input);
         }

@@ -125,10 +125,7 @@ impl LaneForm for Eac {
     ) -> (u32, f32, f32) {
         let d = largest_component(x, y, z);
         let scale = 1.0 / d.axis;
-        let place = |c: f32| {
-            let angle = arctangent.atan::<FUSED>(c * scale);
-            multiply_add::<FUSED>(angle, (2.0 * FRAC_1_PI) as f32, 0.5)
-        };
+        let place = |c: f32| arctangent.add_quarters::<FUSED>(0.5, c * scale);
         (d.face, place(d.across), place(d.down))
     }
 
@@ -169,9 +166,9 @@ impl LaneForm for Ccm {
         let scale = 1.0 / (d.axis * h);
         let (per_axis, per_h) = (h * scale, d.axis * scale);
         let a = p * per_axis;
-        let latitude = arctangent.atan::<FUSED>(t * per_h);
+        let latitude = arctangent.quarters::<FUSED>(t * per_h);
         let reach = arctangent.reach::<FUSED>(d.axis * per_h, a * a);
-        let along = arctangent.along_edge::<FUSED>(a) + 0.5;
+        let along = arctangent.along_edge::<FUSED>(a);
         let across = multiply_add::<FUSED>(latitude, reach, 0.5);
         if is_x {
             (d.face, across, along)
@@ -187,16 +184,15 @@ impl LaneForm for Ccm {
         u: f32,
         v: f32,
     ) -> [f32; 3] {
-        /// Quarter turns in an edge and in a radian.
+        /// Quarter turns in an edge.
         const EDGE: f32 = (4.0 * HALF_EDGE_RAD * FRAC_1_PI) as f32;
-        const PER_RAD: f32 = (2.0 * FRAC_1_PI) as f32;
         let is_x = chart < 2;
         let (l, m) = if is_x { (v, u) } else { (u, v) };
         let (sin, cos) = angles.sin_cos_quarter::<FUSED>((l - 0.5) * EDGE);
         // a = sqrt 2 sin/cos, so 1 + a^2 is (1 + sin^2)/cos^2.
         let scale = 1.0 / multiply_add::<FUSED>(sin, sin, 1.0).sqrt();
         let (q, qa) = (cos * scale, (SQRT_2 as f32 * sin) * scale);
-        let reach = 2.0 * PER_RAD * angles.atan::<FUSED>(q);
+        let reach = 2.0 * angles.quarters::<FUSED>(q);
         let (height, cos) = angles.sin_cos_quarter::<FUSED>((m - 0.5) * reach);
         let (along, axis) = (cos * qa, cos * q);
         let (across, down) = if is_x {

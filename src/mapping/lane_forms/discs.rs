@@ -1,6 +1,6 @@
 //! Maps on discs: sphere map, dual paraboloid, angular map.
 
-use super::{Arctangent, LaneForm, SineCosine, angle_turns, sin_cos_quarters};
+use super::{Arctangent, LaneForm, SineCosine, add_angle, sin_cos_quarters};
 use crate::mapping::angular::Angular;
 use crate::mapping::chart::height_squared;
 use crate::mapping::paraboloid::Paraboloid;
@@ -103,7 +103,7 @@ impl LaneForm for Angular {
         z: f32,
     ) -> (u32, f32, f32) {
         let (x, y, length, across) = sized(x, y);
-        let scale = angle_turns::<A, FUSED>(arctangent, across, z) / length;
+        let scale = 0.25 * add_angle::<A, FUSED>(arctangent, 0.0, across, z) / length;
         (0, 0.5 + x * scale, 0.5 - y * scale)
     }
 

@@ -1,6 +1,6 @@
 //! Latlong.
 
-use super::{Arctangent, LaneForm, SineCosine, angle_turns, sin_cos_quarters};
+use super::{Arctangent, LaneForm, SineCosine, add_angle, sin_cos_quarters};
 use crate::mapping::latlong::Latlong;
 
 impl LaneForm for Latlong {
@@ -13,9 +13,9 @@ impl LaneForm for Latlong {
     ) -> (u32, f32, f32) {
         // Where the squares underflow the colatitude is below 1e-22 rad, and the longitude does not need them.
         let across = (x * x + z * z).sqrt();
-        let longitude = angle_turns::<A, FUSED>(arctangent, x, z);
-        let colatitude = angle_turns::<A, FUSED>(arctangent, across, y);
-        (0, 0.5 + longitude, 2.0 * colatitude)
+        let longitude = add_angle::<A, FUSED>(arctangent, 2.0, x, z);
+        let colatitude = add_angle::<A, FUSED>(arctangent, 0.0, across, y);
+        (0, 0.25 * longitude, 0.5 * colatitude)
     }
 
     #[inline(always)]

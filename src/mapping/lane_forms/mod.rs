@@ -108,6 +108,7 @@ impl<M: LaneForm, A: Arctangent, const FUSED: bool> NullaryFnOnce for Forward<'_
     fn call(self) {
         let Self { dirs, points, .. } = self;
         let count = dirs.len().min(points.len());
+        let mut own = ([0_u32; BLOCK], [0.0_f32; BLOCK], [0.0_f32; BLOCK]);
         for start in (0..count).step_by(BLOCK) {
             let range = start..count.min(start + BLOCK);
             // Slices of one length, so that no bound is checked inside the loop.
@@ -128,10 +129,23 @@ impl<M: LaneForm, A: Arctangent, const FUSED: bool> NullaryFnOnce for Forward<'_
             for k in 0..n {
                 fits &= fits_sizes(x[k], y[k], z[k]);
             }
+            let computed = |k: usize| {
+                let (chart, u, v) = M::chart_point::<A, FUSED>(self.angles, x[k], y[k], z[k]);
+                (chart, clamp_unit(u), clamp_unit(v))
+            };
+            if fits && A::LOOKS_UP {
+                let (charts, us, vs) = (&mut own.0[..n], &mut own.1[..n], &mut own.2[..n]);
+                for k in 0..n {
+                    (charts[k], us[k], vs[k]) = computed(k);
+                }
+                chart.copy_from_slice(charts);
+                u.copy_from_slice(us);
+                v.copy_from_slice(vs);
+                continue;
+            }
             if fits {
                 for k in 0..n {
-                    let point = M::chart_point::<A, FUSED>(self.angles, x[k], y[k], z[k]);
-                    (chart[k], u[k], v[k]) = (point.0, clamp_unit(point.1), clamp_unit(point.2));
+                    (chart[k], u[k], v[k]) = computed(k);
                 }
                 continue;
             }
@@ -161,14 +175,43 @@ impl<M: LaneForm, A: Arctangent + SineCosine, const FUSED: bool> NullaryFnOnce
     #[inline(always)]
     fn call(self) {
         let Self { points, dirs, .. } = self;
-        let n = points.len().min(dirs.len());
-        let (chart, u, v) = (&points.chart[..n], &points.u[..n], &points.v[..n]);
-        let (x, y, z) = (&mut dirs.x[..n], &mut dirs.y[..n], &mut dirs.z[..n]);
-        for k in 0..n {
-            let dir = M::direction::<A, FUSED>(self.angles, chart[k], u[k], v[k]);
-            let holds = is_on(&M::INFO, chart[k], u[k], v[k]);
-            let keep = |c: f32| if holds { c } else { 0.0 };
-            (x[k], y[k], z[k]) = (keep(dir[0]), keep(dir[1]), keep(dir[2]));
+        let count = points.len().min(dirs.len());
+        let mut own = [[0.0_f32; BLOCK]; 3];
+        for start in (0..count).step_by(BLOCK) {
+            let range = start..count.min(start + BLOCK);
+            let (chart, u, v) = (
+                &points.chart[range.clone()],
+                &points.u[range.clone()],
+                &points.v[range.clone()],
+            );
+            let (x, y, z) = (
+                &mut dirs.x[range.clone()],
+                &mut dirs.y[range.clone()],
+                &mut dirs.z[range],
+            );
+            let n = chart.len();
+            let (u, v) = (&u[..n], &v[..n]);
+            let (x, y, z) = (&mut x[..n], &mut y[..n], &mut z[..n]);
+            let computed = |k: usize| {
+                let dir = M::direction::<A, FUSED>(self.angles, chart[k], u[k], v[k]);
+                let holds = is_on(&M::INFO, chart[k], u[k], v[k]);
+                let keep = |c: f32| if holds { c } else { 0.0 };
+                (keep(dir[0]), keep(dir[1]), keep(dir[2]))
+            };
+            if A::LOOKS_UP {
+                let [xs, ys, zs] = &mut own;
+                let (xs, ys, zs) = (&mut xs[..n], &mut ys[..n], &mut zs[..n]);
+                for k in 0..n {
+                    (xs[k], ys[k], zs[k]) = computed(k);
+                }
+                x.copy_from_slice(xs);
+                y.copy_from_slice(ys);
+                z.copy_from_slice(zs);
+                continue;
+            }
+            for k in 0..n {
+                (x[k], y[k], z[k]) = computed(k);
+            }
         }
     }
 }
@@ -201,18 +244,23 @@ fn clamp_unit(c: f32) -> f32 {
     if c < 1.0 { c } else { 1.0 }
 }
 
-/// Arctangent of y/x in turns within [-1/2, 1/2]; 0 for the origin.
+/// `base` and the angle of the point (x, y) in quarter turns within [-2, 2], 0 for the origin; rounded once where the
+/// arctangent can.
 #[inline(always)]
-fn angle_turns<A: Arctangent, const FUSED: bool>(arctangent: A, y: f32, x: f32) -> f32 {
-    const TURNS_PER_RAD: f32 = (0.5 * std::f64::consts::FRAC_1_PI) as f32;
+fn add_angle<A: Arctangent, const FUSED: bool>(arctangent: A, base: f32, y: f32, x: f32) -> f32 {
     let (ax, ay) = (x.abs(), y.abs());
     let is_steep = ay > ax;
     let (small, large) = if is_steep { (ax, ay) } else { (ay, ax) };
-    let divisor = if large > 0.0 { large } else { 1.0 };
-    let angle = arctangent.atan::<FUSED>(small / divisor) * TURNS_PER_RAD;
-    let angle = if is_steep { 0.25 - angle } else { angle };
-    let angle = if x < 0.0 { 0.5 - angle } else { angle };
-    if y < 0.0 { -angle } else { angle }
+    let t = small / (if large > 0.0 { large } else { 1.0 });
+    // Mirrored at the diagonal, at the y axis, at the x axis.
+    let (whole, t) = if is_steep { (1.0, -t) } else { (0.0, t) };
+    let (whole, t) = if x < 0.0 {
+        (2.0 - whole, -t)
+    } else {
+        (whole, t)
+    };
+    let (whole, t) = if y < 0.0 { (-whole, -t) } else { (whole, t) };
+    arctangent.add_quarters::<FUSED>(base + whole, t)
 }
 
 /// (sin, cos) of quarter turns.

@@ -1,7 +1,5 @@
 //! The octahedral squares.
 
-use std::f64::consts::FRAC_1_PI;
-
 use super::{Arctangent, LaneForm, SineCosine, sin_cos_quarters, unit, with_sign};
 use crate::mapping::octahedral::Octahedral;
 use crate::mapping::octahedral_equal_area::OctahedralEqualArea;
@@ -61,7 +59,7 @@ impl LaneForm for OctahedralEqualArea {
         let is_steep = az > ax;
         let (small, large) = if is_steep { (ax, az) } else { (az, ax) };
         let divisor = if large > 0.0 { large } else { 1.0 };
-        let share = arctangent.atan::<FUSED>(small / divisor) * (2.0 * FRAC_1_PI) as f32;
+        let share = arctangent.quarters::<FUSED>(small / divisor);
         // The smaller coordinate is the radius times this share, the larger what is left.
         let near = radius * share;
         let far = radius - near;

@@ -14,21 +14,35 @@ pub use table::{Table, TableKind};
 /// Half of an edge of the continuous cube map as seen from the centre: atan(1/sqrt 2), in radians.
 const HALF_EDGE_RAD: f64 = 0.615_479_708_670_387_3;
 
-/// An arctangent.
+/// An arctangent, in quarter turns: charts are divided by halves, quarters and eighths of a turn, so that no constant has
+/// to follow.
 pub trait Arctangent: Copy + Send + Sync + 'static {
-    /// Arctangent of t in radians, |t| <= 1.
-    fn atan<const FUSED: bool>(self, t: f32) -> f32;
+    /// Whether it reads memory at places that depend on its argument: then a loop becomes vector instructions only where it
+    /// writes to memory that nobody else can know.
+    const LOOKS_UP: bool = false;
 
-    /// atan(a/sqrt 2)/(2 atan(1/sqrt 2)) for |a| <= 1: the place along an edge of the continuous cube map, in [-1/2, 1/2].
+    /// Arctangent of t in quarter turns, |t| <= 1: within [-1/2, 1/2].
+    fn quarters<const FUSED: bool>(self, t: f32) -> f32;
+
+    /// `base` and the arctangent of t in quarter turns.
     #[inline(always)]
-    fn along_edge<const FUSED: bool>(self, a: f32) -> f32 {
-        self.atan::<FUSED>(a * std::f32::consts::FRAC_1_SQRT_2) * (0.5 / HALF_EDGE_RAD) as f32
+    fn add_quarters<const FUSED: bool>(self, base: f32, t: f32) -> f32 {
+        base + self.quarters::<FUSED>(t)
     }
 
-    /// 1/(2 atan q) for q = 1/sqrt(1 + s), s in [0, 1]: what the continuous cube map multiplies a latitude by.
+    /// 1/2 + atan(a/sqrt 2)/(2 atan(1/sqrt 2)) for |a| <= 1: the place along an edge of the continuous cube map, in [0, 1].
+    #[inline(always)]
+    fn along_edge<const FUSED: bool>(self, a: f32) -> f32 {
+        const EDGES_PER_QUARTER: f32 = (std::f64::consts::FRAC_PI_4 / HALF_EDGE_RAD) as f32;
+        let quarters = self.quarters::<FUSED>(a * std::f32::consts::FRAC_1_SQRT_2);
+        multiply_add::<FUSED>(quarters, EDGES_PER_QUARTER, 0.5)
+    }
+
+    /// 1/(2 quarters(q)) for q = 1/sqrt(1 + s), s in [0, 1]: what the continuous cube map multiplies a latitude in quarter
+    /// turns by.
     #[inline(always)]
     fn reach<const FUSED: bool>(self, q: f32, _s: f32) -> f32 {
-        0.5 / self.atan::<FUSED>(q)
+        0.5 / self.quarters::<FUSED>(q)
     }
 }
 

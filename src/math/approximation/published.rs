@@ -1,6 +1,6 @@
 //! Approximations from the literature, with the numbers that it prints.
 
-use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f32::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4};
 
 use super::{Arctangent, SineCosine, horner, multiply_add};
 
@@ -71,9 +71,15 @@ published!(
     "pbrt-v4, equal-area mapping"
 );
 
+/// Quarter turns in so many radians: all but one are printed for radians.
+#[inline(always)]
+fn in_quarters(rad: f32) -> f32 {
+    rad * FRAC_2_PI
+}
+
 impl Arctangent for Hastings9 {
     #[inline(always)]
-    fn atan<const FUSED: bool>(self, t: f32) -> f32 {
+    fn quarters<const FUSED: bool>(self, t: f32) -> f32 {
         const C: [f32; 5] = [
             0.999_866_0,
             -0.330_299_5,
@@ -81,7 +87,7 @@ impl Arctangent for Hastings9 {
             -0.085_133_0,
             0.020_835_1,
         ];
-        t * horner::<FUSED>(&C, t * t)
+        in_quarters(t * horner::<FUSED>(&C, t * t))
     }
 }
 
@@ -94,7 +100,7 @@ impl SineCosine for Hastings9 {
 
 impl Arctangent for Hastings17 {
     #[inline(always)]
-    fn atan<const FUSED: bool>(self, t: f32) -> f32 {
+    fn quarters<const FUSED: bool>(self, t: f32) -> f32 {
         const C: [f32; 8] = [
             -0.333_331_45,
             0.199_935_51,
@@ -106,7 +112,7 @@ impl Arctangent for Hastings17 {
             0.002_866_225_7,
         ];
         let s = t * t;
-        multiply_add::<FUSED>(t * s, horner::<FUSED>(&C, s), t)
+        in_quarters(multiply_add::<FUSED>(t * s, horner::<FUSED>(&C, s), t))
     }
 }
 
@@ -143,38 +149,38 @@ fn series<const FUSED: bool>(f: f32, sin: &[f32], cos: &[f32]) -> (f32, f32) {
 
 impl Arctangent for Rational {
     #[inline(always)]
-    fn atan<const FUSED: bool>(self, t: f32) -> f32 {
-        t / multiply_add::<FUSED>(0.28 * t, t, 1.0)
+    fn quarters<const FUSED: bool>(self, t: f32) -> f32 {
+        in_quarters(t / multiply_add::<FUSED>(0.28 * t, t, 1.0))
     }
 }
 
 impl Arctangent for Rajan2 {
     #[inline(always)]
-    fn atan<const FUSED: bool>(self, t: f32) -> f32 {
-        t * multiply_add::<FUSED>(-0.273, t.abs(), FRAC_PI_4 + 0.273)
+    fn quarters<const FUSED: bool>(self, t: f32) -> f32 {
+        in_quarters(t * multiply_add::<FUSED>(-0.273, t.abs(), FRAC_PI_4 + 0.273))
     }
 }
 
 impl Arctangent for Rajan3 {
     #[inline(always)]
-    fn atan<const FUSED: bool>(self, t: f32) -> f32 {
+    fn quarters<const FUSED: bool>(self, t: f32) -> f32 {
         let a = t.abs();
         let bend = multiply_add::<FUSED>(0.0663, a, 0.2447);
-        t * multiply_add::<FUSED>(1.0 - a, bend, FRAC_PI_4)
+        in_quarters(t * multiply_add::<FUSED>(1.0 - a, bend, FRAC_PI_4))
     }
 }
 
 impl Arctangent for Lagarde {
     #[inline(always)]
-    fn atan<const FUSED: bool>(self, t: f32) -> f32 {
-        t * horner::<FUSED>(&[1.0301, -0.1784, -0.0663], t.abs())
+    fn quarters<const FUSED: bool>(self, t: f32) -> f32 {
+        in_quarters(t * horner::<FUSED>(&[1.0301, -0.1784, -0.0663], t.abs()))
     }
 }
 
 impl Arctangent for Pbrt {
     #[inline(always)]
-    fn atan<const FUSED: bool>(self, t: f32) -> f32 {
-        // The polynomial gives the share of a quarter turn.
+    fn quarters<const FUSED: bool>(self, t: f32) -> f32 {
+        // This one is printed for quarter turns.
         const C: [f32; 7] = [
             0.406_758_57e-5,
             0.636_226_55,
@@ -184,7 +190,6 @@ impl Arctangent for Pbrt {
             0.419_038_82e-1,
             -0.251_390_97e-1,
         ];
-        let share = horner::<FUSED>(&C, t.abs());
-        (share * FRAC_PI_2).copysign(t)
+        horner::<FUSED>(&C, t.abs()).copysign(t)
     }
 }

@@ -22,7 +22,7 @@ pub enum TableKind {
     Cubic,
 }
 
-/// Tables of equal steps over [0, 1]: the arctangent of t, sine and cosine of t/2 quarter turns.
+/// Tables of equal steps over [0, 1]: the arctangent of t in quarter turns, sine and cosine of t/2 quarter turns.
 #[derive(Clone, Copy, Debug)]
 pub struct Table<const CUBIC: bool> {
     steps: f32,
@@ -74,20 +74,22 @@ impl<const CUBIC: bool> Table<CUBIC> {
     }
 }
 
-/// The arctangent, sine and cosine of (i - 1)/steps, the sine and cosine of half as many quarter turns.
+/// The arctangent in quarter turns, sine and cosine of (i - 1)/steps, the sine and cosine of half as many quarter turns.
 fn entries(steps: usize) -> [Entries; 3] {
     let place = |i: usize| (i as f64 - 1.0) / steps as f64;
     let angle = |i| 0.5 * FRAC_PI_2 * place(i);
     [
-        std::array::from_fn(|i| place(i).atan() as f32),
+        std::array::from_fn(|i| (place(i).atan() / FRAC_PI_2) as f32),
         std::array::from_fn(|i| angle(i).sin() as f32),
         std::array::from_fn(|i| angle(i).cos() as f32),
     ]
 }
 
 impl<const CUBIC: bool> Arctangent for Table<CUBIC> {
+    const LOOKS_UP: bool = true;
+
     #[inline(always)]
-    fn atan<const FUSED: bool>(self, t: f32) -> f32 {
+    fn quarters<const FUSED: bool>(self, t: f32) -> f32 {
         self.look_up::<FUSED>(self.atan, t).copysign(t)
     }
 }
