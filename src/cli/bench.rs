@@ -6,10 +6,12 @@ use std::sync::Arc;
 
 use super::bar::Bar;
 use super::{CliError, DONE};
+use crate::imaging::png_out::{PngError, encode_png};
 use crate::imaging::{Progress, atomic};
 use crate::lab::bench::{Plan, bench};
 use crate::lab::machine::Machine;
 use crate::lab::report;
+use crate::lab::scatter::scatter;
 use crate::mapping::MappingId;
 
 /// Options of `sixfold bench`.
@@ -41,6 +43,8 @@ pub(super) enum LabError {
     },
     #[error(transparent)]
     Write(#[from] atomic::WriteError),
+    #[error(transparent)]
+    Picture(#[from] PngError),
     #[error("the report cannot be put into words: {0}")]
     Words(#[from] serde_json::Error),
 }
@@ -56,7 +60,13 @@ pub(super) fn run(options: &BenchOptions, out: &mut impl Write) -> Result<u8, Cl
     if !options.maps.is_empty() {
         plan.maps.clone_from(&options.maps);
     }
-    let files = ["bench.json", "bench.csv", "bench_machine.json"];
+    let files = [
+        "bench.json",
+        "bench.csv",
+        "bench_machine.json",
+        "bench.svg",
+        "bench.png",
+    ];
     if let Some(folder) = &options.out {
         prepare(folder, &files, options.force)?;
     }
@@ -66,13 +76,18 @@ pub(super) fn run(options: &BenchOptions, out: &mut impl Write) -> Result<u8, Cl
     drop(bar);
     if let Some(folder) = &options.out {
         let machine = serde_json::to_string_pretty(&Machine::this()).map_err(LabError::Words)?;
-        let texts = [
-            report::json(&rows).map_err(LabError::Words)?,
-            report::csv(&rows).map_err(LabError::Words)?,
-            machine + "\n",
+        let picture = scatter(&rows);
+        let [width, height] = picture.size();
+        let png = encode_png(width, height, &picture.rgba(), None).map_err(LabError::Picture)?;
+        let contents = [
+            report::json(&rows).map_err(LabError::Words)?.into_bytes(),
+            report::csv(&rows).map_err(LabError::Words)?.into_bytes(),
+            (machine + "\n").into_bytes(),
+            picture.svg().into_bytes(),
+            png,
         ];
-        for (name, text) in files.iter().zip(texts) {
-            write(&folder.join(name), options.force, text.as_bytes())?;
+        for (name, bytes) in files.iter().zip(contents) {
+            write(&folder.join(name), options.force, &bytes)?;
         }
     }
     out.write_all(report::bench_table(&rows).as_bytes())

@@ -6,8 +6,10 @@
 pub mod accuracy;
 pub mod bench;
 pub mod clock;
+pub mod drawing;
 pub mod front;
 pub mod inputs;
 pub mod machine;
 pub mod report;
 pub mod run;
+pub mod scatter;
