@@ -11,7 +11,7 @@
 mod appendix_b;
 mod paper;
 
-pub(super) use paper::{from_s_t, shader, to_s_t};
+pub(super) use paper::{from_s_t, fused_shader, printed, shader, to_s_t};
 
 use super::cube_face::{
     self, face_lanes, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane,

@@ -137,6 +137,20 @@ pub(super) const CCM: &[SeedForm] = &[
         forward: ccm::shader,
         inverse: None,
     },
+    SeedForm {
+        id: "fused-shader",
+        about: "the listing with > 0 for ceil, products fused into sums as a compiler may choose: has holes near the corners",
+        source: "Grimm and Niebruegge, Appendix A, as gcc's default contracts it",
+        forward: ccm::fused_shader,
+        inverse: None,
+    },
+    SeedForm {
+        id: "printed-eq6",
+        about: "Eq. 5, and Eq. 6 as it is printed: wrong by up to 0.224 of a face",
+        source: "Grimm and Niebruegge, eq. 5 and 6",
+        forward: ccm::printed,
+        inverse: None,
+    },
 ];
 
 fn latlong(dir: Vec3<f32>, acos: fn(f32) -> f32) -> Point {

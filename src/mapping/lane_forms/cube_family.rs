@@ -59,10 +59,13 @@ fn largest_component(x: f32, y: f32, z: f32) -> Framed {
 #[inline(always)]
 fn sign_table(x: f32, y: f32, z: f32) -> Framed {
     let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
-    let beats = |first: bool, a: f32, b: f32| if first { a >= b } else { a > b };
-    let is_y = beats(y < 0.0, ay, ax) & beats(y < 0.0, ay, az);
+    let is_y = if y < 0.0 {
+        (ay >= ax) & (ay >= az)
+    } else {
+        (ay > ax) & (ay > az)
+    };
     // +z is before +y, and where it meets -y that has been chosen.
-    let is_z = !is_y & (az >= ay) & beats(z < 0.0, az, ax);
+    let is_z = !is_y & (az >= ay) & if z < 0.0 { az >= ax } else { az > ax };
     framed(is_y, is_z, x, y, z)
 }
 
@@ -125,8 +128,11 @@ impl LaneForm for Eac {
     ) -> (u32, f32, f32) {
         let d = largest_component(x, y, z);
         let scale = 1.0 / d.axis;
-        let place = |c: f32| arctangent.add_quarters::<FUSED>(0.5, c * scale);
-        (d.face, place(d.across), place(d.down))
+        (
+            d.face,
+            arctangent.add_quarters::<FUSED>(0.5, d.across * scale),
+            arctangent.add_quarters::<FUSED>(0.5, d.down * scale),
+        )
     }
 
     #[inline(always)]

@@ -129,14 +129,11 @@ impl<M: LaneForm, A: Arctangent, const FUSED: bool> NullaryFnOnce for Forward<'_
             for k in 0..n {
                 fits &= fits_sizes(x[k], y[k], z[k]);
             }
-            let computed = |k: usize| {
-                let (chart, u, v) = M::chart_point::<A, FUSED>(self.angles, x[k], y[k], z[k]);
-                (chart, clamp_unit(u), clamp_unit(v))
-            };
             if fits && A::LOOKS_UP {
                 let (charts, us, vs) = (&mut own.0[..n], &mut own.1[..n], &mut own.2[..n]);
                 for k in 0..n {
-                    (charts[k], us[k], vs[k]) = computed(k);
+                    (charts[k], us[k], vs[k]) =
+                        clamped_point::<M, A, FUSED>(self.angles, x[k], y[k], z[k]);
                 }
                 chart.copy_from_slice(charts);
                 u.copy_from_slice(us);
@@ -145,16 +142,17 @@ impl<M: LaneForm, A: Arctangent, const FUSED: bool> NullaryFnOnce for Forward<'_
             }
             if fits {
                 for k in 0..n {
-                    (chart[k], u[k], v[k]) = computed(k);
+                    (chart[k], u[k], v[k]) =
+                        clamped_point::<M, A, FUSED>(self.angles, x[k], y[k], z[k]);
                 }
                 continue;
             }
             for k in 0..n {
                 let dir = crate::math::Vec3::new(x[k], y[k], z[k]).scaled_direction();
-                let point = dir.map_or((NOWHERE, 0.0, 0.0), |d| {
-                    M::chart_point::<A, FUSED>(self.angles, d.x, d.y, d.z)
-                });
-                (chart[k], u[k], v[k]) = (point.0, clamp_unit(point.1), clamp_unit(point.2));
+                (chart[k], u[k], v[k]) = match dir {
+                    Some(d) => clamped_point::<M, A, FUSED>(self.angles, d.x, d.y, d.z),
+                    None => (NOWHERE, 0.0, 0.0),
+                };
             }
         }
     }
@@ -192,17 +190,12 @@ impl<M: LaneForm, A: Arctangent + SineCosine, const FUSED: bool> NullaryFnOnce
             let n = chart.len();
             let (u, v) = (&u[..n], &v[..n]);
             let (x, y, z) = (&mut x[..n], &mut y[..n], &mut z[..n]);
-            let computed = |k: usize| {
-                let dir = M::direction::<A, FUSED>(self.angles, chart[k], u[k], v[k]);
-                let holds = is_on(&M::INFO, chart[k], u[k], v[k]);
-                let keep = |c: f32| if holds { c } else { 0.0 };
-                (keep(dir[0]), keep(dir[1]), keep(dir[2]))
-            };
             if A::LOOKS_UP {
                 let [xs, ys, zs] = &mut own;
                 let (xs, ys, zs) = (&mut xs[..n], &mut ys[..n], &mut zs[..n]);
                 for k in 0..n {
-                    (xs[k], ys[k], zs[k]) = computed(k);
+                    [xs[k], ys[k], zs[k]] =
+                        kept_direction::<M, A, FUSED>(self.angles, chart[k], u[k], v[k]);
                 }
                 x.copy_from_slice(xs);
                 y.copy_from_slice(ys);
@@ -210,9 +203,41 @@ impl<M: LaneForm, A: Arctangent + SineCosine, const FUSED: bool> NullaryFnOnce
                 continue;
             }
             for k in 0..n {
-                (x[k], y[k], z[k]) = computed(k);
+                [x[k], y[k], z[k]] =
+                    kept_direction::<M, A, FUSED>(self.angles, chart[k], u[k], v[k]);
             }
         }
+    }
+}
+
+// Functions and not closures: a closure that is called from two places may be left a call, and then no loop around it
+// becomes vector instructions.
+
+/// A form's chart point, clamped to the chart.
+#[inline(always)]
+fn clamped_point<M: LaneForm, A: Arctangent, const FUSED: bool>(
+    angles: A,
+    x: f32,
+    y: f32,
+    z: f32,
+) -> (u32, f32, f32) {
+    let (chart, u, v) = M::chart_point::<A, FUSED>(angles, x, y, z);
+    (chart, clamp_unit(u), clamp_unit(v))
+}
+
+/// A form's direction, zero off the chart.
+#[inline(always)]
+fn kept_direction<M: LaneForm, A: Arctangent + SineCosine, const FUSED: bool>(
+    angles: A,
+    chart: u32,
+    u: f32,
+    v: f32,
+) -> [f32; 3] {
+    let [x, y, z] = M::direction::<A, FUSED>(angles, chart, u, v);
+    if is_on(&M::INFO, chart, u, v) {
+        [x, y, z]
+    } else {
+        [0.0; 3]
     }
 }
 

@@ -55,23 +55,29 @@ impl<const CUBIC: bool> Table<CUBIC> {
         let (whole, rest) = floor_and_rest(t.abs() * self.steps);
         // Never more than a table's last step; the bound lets the compiler leave its own checks out.
         let at = (whole as u32 as usize).min(MOST);
-        let between = |a: f32, b: f32, rest: f32| multiply_add::<FUSED>(b - a, rest, a);
         if !CUBIC {
-            return between(entries[at + 1], entries[at + 2], rest);
+            return between::<FUSED>(entries[at + 1], entries[at + 2], rest);
         }
         // Neville's scheme through entries at -1, 0, 1 and 2.
-        let [p, q, r, s] = [0, 1, 2, 3].map(|i| entries[(at + i).min(ENTRIES - 1)]);
-        let (pq, qr, rs) = (
-            between(q, p, -rest),
-            between(q, r, rest),
-            between(r, s, rest - 1.0),
+        let (p, q, r, s) = (
+            entries[at],
+            entries[at + 1],
+            entries[at + 2],
+            entries[at + 3],
         );
-        let (pqr, qrs) = (
-            between(qr, pq, 0.5 * (1.0 - rest)),
-            between(qr, rs, 0.5 * rest),
-        );
-        between(pqr, qrs, (rest + 1.0) * (1.0 / 3.0))
+        let pq = between::<FUSED>(q, p, -rest);
+        let qr = between::<FUSED>(q, r, rest);
+        let rs = between::<FUSED>(r, s, rest - 1.0);
+        let pqr = between::<FUSED>(qr, pq, 0.5 * (1.0 - rest));
+        let qrs = between::<FUSED>(qr, rs, 0.5 * rest);
+        between::<FUSED>(pqr, qrs, (rest + 1.0) * (1.0 / 3.0))
     }
+}
+
+/// The value at `share` of the way from `a` to `b`.
+#[inline(always)]
+fn between<const FUSED: bool>(a: f32, b: f32, share: f32) -> f32 {
+    multiply_add::<FUSED>(b - a, share, a)
 }
 
 /// The arctangent in quarter turns, sine and cosine of (i - 1)/steps, the sine and cosine of half as many quarter turns.
