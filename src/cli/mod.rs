@@ -12,6 +12,7 @@ mod figure;
 mod maps;
 mod plan;
 mod render;
+mod stress;
 
 pub use figure::FigureOptions;
 pub use render::{Picture, RenderOptions};
@@ -68,6 +69,8 @@ enum Command {
     Convert(Box<convert::ConvertOptions>),
     /// Run time against error of every evaluator of every mapping
     Bench(bench::BenchOptions),
+    /// Numerical stress test of the same
+    Stress(stress::StressOptions),
     /// Draw one picture without opening a window
     Render(Box<RenderOptions>),
     /// Draw the figures of the source articles anew
@@ -127,6 +130,9 @@ fn obey(cli: Cli) -> Request {
                 .map_err(CliError::from),
         )),
         Some(Command::Bench(options)) => finish(|out| bench::run(&options, out)),
+        Some(Command::Stress(options)) => {
+            finish(|out| stress::run(&options, out, io::stderr().lock()))
+        }
         Some(Command::Render(options)) => Request::Render(options),
         Some(Command::Figure(options)) => Request::Figure(options),
         None => match cli.scene {

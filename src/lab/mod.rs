@@ -13,3 +13,4 @@ pub mod machine;
 pub mod report;
 pub mod run;
 pub mod scatter;
+pub mod stress;

@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::bench::Row;
+use super::stress;
 
 /// One JSON array, a row a line.
 ///
@@ -147,6 +148,77 @@ pub fn bench_table(rows: &[Row]) -> String {
     };
     let cells: Vec<[String; 12]> = shown.iter().map(cells).collect();
     table(TITLES, 5, &cells)
+}
+
+/// What the terminal shows of a stress test: each evaluator's worst over all families, or every family; observed beside
+/// allowed, a mark where something is broken (`!`) or known to be (`x`).
+pub fn stress_table(rows: &[stress::Row], all: bool) -> String {
+    const TITLES: [&str; 12] = [
+        "MAP",
+        "EVALUATOR",
+        "FAMILY",
+        "STATE",
+        "HOLES",
+        "CHART",
+        "RANGE",
+        "NAN",
+        "FORWARD / ALLOWED",
+        "THERE AND BACK / ALLOWED",
+        "SEAM / ALLOWED",
+        "FALL",
+    ];
+    let mut cells = Vec::new();
+    for group in rows.chunk_by(|a, b| a.mapping == b.mapping) {
+        let mut evaluators: Vec<&str> = group.iter().map(|row| row.evaluator).collect();
+        evaluators.sort_unstable();
+        evaluators.dedup();
+        let first = |id: &str| group.iter().position(|row| row.evaluator == id);
+        evaluators.sort_by_key(|id| first(id));
+        for id in evaluators {
+            let own = group.iter().filter(|row| row.evaluator == id);
+            if all {
+                cells.extend(own.map(|row| stress_cells(row, row.family.id(), &[row])));
+            } else if let Some(row) = own.clone().next() {
+                cells.push(stress_cells(row, "all", &own.collect::<Vec<_>>()));
+            }
+        }
+    }
+    table(TITLES, 4, &cells)
+}
+
+/// The worst of some rows of one evaluator.
+fn stress_cells(row: &stress::Row, family: &str, rows: &[&stress::Row]) -> [String; 12] {
+    let worst: [f64; 8] = std::array::from_fn(|k| {
+        let numbers = rows.iter().map(|row| row.observed.numbers()[k]);
+        numbers.fold(0.0, f64::max)
+    });
+    let allowed = row.allowed.numbers();
+    let state = if rows.iter().any(|row| row.broken) {
+        "!"
+    } else if worst
+        .iter()
+        .zip(allowed)
+        .any(|(seen, allowed)| *seen > allowed)
+    {
+        "x"
+    } else {
+        ""
+    };
+    let beside = |k: usize| format!("{:.1e} / {:.1e}", worst[k], allowed[k]);
+    [
+        row.mapping.to_owned(),
+        row.evaluator.to_owned(),
+        family.to_owned(),
+        state.to_owned(),
+        worst[0].to_string(),
+        worst[1].to_string(),
+        worst[2].to_string(),
+        worst[3].to_string(),
+        beside(5),
+        beside(4),
+        beside(6),
+        format!("{:.1}", worst[7]),
+    ]
 }
 
 /// Place of an instruction set among the others, by its name.

@@ -105,9 +105,8 @@ fn border(random: &mut Random) -> [f32; 3] {
     };
     // Two components alike and the third anything: along an edge, or along a meridian through a seam.
     let free = (random.below(2) == 0).then(|| random.below(3) as usize);
-    let mut dir = pattern.map(|sign| {
-        step_ulps(f32::from(sign) * length, random.below(129) as i32 - 64)
-    });
+    let mut dir =
+        pattern.map(|sign| step_ulps(f32::from(sign) * length, random.below(129) as i32 - 64));
     if let Some(free) = free {
         dir[free] = length * (2.0 * random.unit() as f32 - 1.0);
     }
@@ -157,43 +156,71 @@ fn no_directions() -> Vec<[f32; 3]> {
     list
 }
 
-/// Steps of a walk along one edge.
+/// Most steps of a walk.
 const STEPS: usize = 256;
+/// Walks: twelve edges of the cube in three ways of stepping, and the twelve halves of the planes between the axes.
+const WALKS: usize = 12 * 3 + 12;
 
-/// For each of the twelve edges and each way of stepping: the edge's points in order, each with its neighbours across.
+/// Steps of each walk.
+fn steps(effort: usize) -> usize {
+    (effort / (3 * WALKS)).clamp(16, STEPS)
+}
+
+/// The inputs of one walk, in order: for each step below, on and above the seam.
+pub fn walk_length(effort: usize) -> usize {
+    3 * (steps(effort) + 1)
+}
+
+/// The axis that is walked along, and the two others.
+const AXES: [[usize; 3]; 3] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
+const SIGNS: [[f32; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+
 fn walks(effort: usize) -> Vec<[f32; 3]> {
-    let steps = (effort / (12 * 3 * 3)).clamp(16, STEPS);
+    let steps = steps(effort);
+    let share = |step: usize| 2.0 * step as f64 / steps as f64 - 1.0;
     let mut list = Vec::new();
-    for [free, a, b] in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
-        for (sign_a, sign_b) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0_f32)] {
+    let mut push = |[free, a, b]: [usize; 3], along: f32, at_a: f32, at_b: [f32; 3]| {
+        for at_b in at_b {
+            let mut dir = [0.0; 3];
+            (dir[free], dir[a], dir[b]) = (along, at_a, at_b);
+            list.push(dir);
+        }
+    };
+    for axes in AXES {
+        for [sign_a, sign_b] in SIGNS {
             for kind in 0..3 {
-                for step in 0..=steps {
-                    let share = 2.0 * step as f64 / steps as f64 - 1.0;
-                    let along = match kind {
-                        // f16 has 11 bits: steps of 2^-11 and less near 0, all of them floats.
-                        0 => (share * 2048.0).round() / 2048.0,
-                        1 => f64::from(step_ulps(share as f32, 1)),
-                        _ => share / 3f64.sqrt(),
+                for share in (0..=steps).map(share) {
+                    // f16 has 11 bits; f64 on the unit sphere is rounded to f32.
+                    let (along, size) = match kind {
+                        0 => ((share * 2048.0).round() / 2048.0, 1.0),
+                        1 => (f64::from(step_ulps(share as f32, 1)), 1.0),
+                        _ => {
+                            let length = (2.0 + share * share).sqrt();
+                            (share / length, 1.0 / length)
+                        }
                     };
-                    let size = if kind == 2 { 1.0 / 3f64.sqrt() } else { 1.0 };
-                    let mut dir = [0.0_f32; 3];
-                    dir[free] = along as f32;
-                    dir[a] = sign_a * size as f32;
-                    dir[b] = sign_b * size as f32;
-                    let [mut below, mut above] = [dir; 2];
-                    below[b] = sign_b * (size as f32).next_down();
-                    above[b] = sign_b * (size as f32).next_up();
-                    list.extend([below, dir, above]);
+                    let size = size as f32;
+                    let across = [size.next_down(), size, size.next_up()];
+                    push(
+                        axes,
+                        along as f32,
+                        sign_a * size,
+                        across.map(|c| sign_b * c),
+                    );
                 }
+            }
+        }
+        // Across a plane between the axes, far below the last digit of the other components.
+        for [sign, other] in SIGNS {
+            let [free, a, b] = axes;
+            let axes = if other > 0.0 { axes } else { [free, b, a] };
+            const NEAR: f32 = 1.0 / (1_u128 << 80) as f32;
+            for share in (0..=steps).map(share) {
+                push(axes, 1.5 * share as f32, sign, [-NEAR, 0.0, NEAR]);
             }
         }
     }
     list
-}
-
-/// The walks' inputs of one edge and one way of stepping, in order: for each step below, on and above the edge.
-pub fn walk_length(effort: usize) -> usize {
-    3 * ((effort / (12 * 3 * 3)).clamp(16, STEPS) + 1)
 }
 
 #[cfg(test)]
@@ -209,7 +236,11 @@ mod tests {
             let bits = |list: &[[f32; 3]]| -> Vec<[u32; 3]> {
                 list.iter().map(|dir| dir.map(f32::to_bits)).collect()
             };
-            assert_eq!(bits(&inputs), bits(&family.inputs(2000)), "{family:?} is the same on every run");
+            assert_eq!(
+                bits(&inputs),
+                bits(&family.inputs(2000)),
+                "{family:?} is the same on every run"
+            );
             let is_dir = |dir: &[f32; 3]| dir.iter().all(|c| c.is_finite()) && *dir != [0.0; 3];
             let directions = inputs.iter().filter(|dir| is_dir(dir)).count();
             match family {
@@ -222,6 +253,6 @@ mod tests {
         let largest = |dir: &[f32; 3]| dir.iter().fold(0f32, |m, c| m.max(c.abs()));
         assert!(lengths.iter().any(|dir| largest(dir) < 1e-44));
         assert!(lengths.iter().any(|dir| largest(dir) > 1e38));
-        assert_eq!(Family::Walks.inputs(2000).len(), 36 * walk_length(2000));
+        assert_eq!(Family::Walks.inputs(2000).len(), WALKS * walk_length(2000));
     }
 }
