@@ -59,7 +59,7 @@ impl Plan {
             judged: 1 << 14,
             clock: Clock {
                 samples: 5,
-                shortest: Duration::from_micros(100),
+                shortest: Duration::from_micros(60),
             },
             ..Self::full()
         }
@@ -131,13 +131,15 @@ pub struct Row {
     pub on_front: bool,
 }
 
+/// Nanoseconds a direction above which no memory is the limit: it brings 12 bytes and takes as many in about 1 ns.
+const HELD_UP_NS: f64 = 4.0;
+
 /// Bytes read for a direction or a chart point: three numbers. As many are written.
 const BYTES: usize = 12;
 
 /// Runs the plan; ends early, with what there is, when the progress is cancelled.
 pub fn bench(plan: &Plan, progress: &Progress) -> Vec<Row> {
     progress.enter(Stage::Measuring);
-    let copies = Copies::new(plan);
     let mut rows = Vec::new();
     let total = plan.maps.len() * plan.inputs.len();
     let mut done = 0;
@@ -148,7 +150,6 @@ pub fn bench(plan: &Plan, progress: &Progress) -> Vec<Row> {
                 map: *map,
                 inputs: *inputs,
                 plan,
-                copies: &copies,
                 backward: InverseTruth::new(*map, Inputs::points(*map, &dirs)),
                 forward: ForwardTruth::new(*map, dirs),
             };
@@ -201,30 +202,11 @@ pub fn mark_front(rows: &mut [Row]) {
     }
 }
 
-/// Nanoseconds that a plain copy takes for each direction: few and many, by one thread and by all.
-struct Copies {
-    few: f64,
-    many: [f64; 2],
-}
-
-impl Copies {
-    fn new(plan: &Plan) -> Self {
-        let ns = |count: usize, on_all: bool| {
-            plan.clock.copy(count * BYTES, on_all).median_ns / count as f64
-        };
-        Self {
-            few: ns(plan.few, false),
-            many: [ns(plan.many, false), ns(plan.many, true)],
-        }
-    }
-}
-
 /// A mapping and inputs, with the truth about them.
 struct Subject<'a> {
     map: MappingId,
     inputs: Inputs,
     plan: &'a Plan,
-    copies: &'a Copies,
     forward: ForwardTruth,
     backward: InverseTruth,
 }
@@ -266,7 +248,7 @@ impl Subject<'_> {
             };
             // From memory, and by all threads: where the memory can hold a form up at all, and where the order of the inputs
             // cannot matter.
-            let is_held_up = last.ns < 4.0 * self.copies.many[0];
+            let is_held_up = last.ns < HELD_UP_NS;
             if evaluator.is_vector && is_held_up && self.inputs == Inputs::Random {
                 for threads in [Threads::One, Threads::All] {
                     let setting = Setting {
@@ -309,13 +291,7 @@ impl Subject<'_> {
         } else {
             self.plan.few
         };
-        let timing = self.throughput(evaluator, setting, n);
-        let ns = timing.median_ns / n as f64;
-        let copy = match (is_many, threads) {
-            (false, _) => self.copies.few,
-            (true, Threads::One) => self.copies.many[0],
-            (true, Threads::All) => self.copies.many[1],
-        };
+        let (timing, copy_ratio) = self.throughput(evaluator, setting, n);
         Row {
             mapping: self.map.info().id,
             evaluator: evaluator.id,
@@ -325,10 +301,10 @@ impl Subject<'_> {
             isa: isa.id(),
             threads: threads.count(),
             n,
-            ns,
+            ns: timing.median_ns / n as f64,
             ns_latency: (!is_many).then(|| self.latency(evaluator, setting)),
             spread: timing.spread,
-            copy_ratio: ns / copy,
+            copy_ratio,
             max_error_rad: errors.max_rad,
             rms_error_rad: errors.rms_rad,
             max_error_ulp: errors.max_ulp,
@@ -340,38 +316,48 @@ impl Subject<'_> {
         }
     }
 
-    /// Time of `n` directions at once.
-    fn throughput(&self, evaluator: &EvaluatorInfo, setting: Setting, n: usize) -> Timing {
+    /// Time of `n` directions at once, and its ratio to a plain copy.
+    fn throughput(&self, evaluator: &EvaluatorInfo, setting: Setting, n: usize) -> (Timing, f64) {
         let Setting { isa, threads, .. } = setting;
+        let (clock, bytes) = (self.plan.clock, n * BYTES);
+        let on_all = threads == Threads::All;
         match (setting.way, &evaluator.inverse) {
             (Way::Inverse, Some(inverse)) => {
                 let points = repeated_points(self.backward.points(), n);
                 let mut dirs = DirList::zeros(points.len());
-                self.plan.clock.time(|| {
-                    run::inverse(
-                        inverse,
-                        isa,
-                        threads,
-                        black_box(points.view()),
-                        dirs.view_mut(),
-                    );
-                    black_box(&mut dirs);
-                })
+                clock.time_beside_copy(
+                    || {
+                        run::inverse(
+                            inverse,
+                            isa,
+                            threads,
+                            black_box(points.view()),
+                            dirs.view_mut(),
+                        );
+                        black_box(&mut dirs);
+                    },
+                    bytes,
+                    on_all,
+                )
             }
             _ => {
                 let dirs = repeated_dirs(self.forward.dirs(), n);
                 let mut points = PointList::zeros(n);
                 let forward = &evaluator.forward;
-                self.plan.clock.time(|| {
-                    run::forward(
-                        forward,
-                        isa,
-                        threads,
-                        black_box(dirs.view()),
-                        points.view_mut(),
-                    );
-                    black_box(&mut points);
-                })
+                clock.time_beside_copy(
+                    || {
+                        run::forward(
+                            forward,
+                            isa,
+                            threads,
+                            black_box(dirs.view()),
+                            points.view_mut(),
+                        );
+                        black_box(&mut points);
+                    },
+                    bytes,
+                    on_all,
+                )
             }
         }
     }

@@ -28,7 +28,8 @@ impl Mapping for Paraboloid {
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
         let d = dir.scaled_direction()?;
-        let back = d.z < R::zero();
+        // Of the direction as it came: scaling may have taken the digits of a small z.
+        let back = dir.z < R::zero();
         let twice = R::two() * (d.length() + d.z.abs());
         let x = if back { -d.x } else { d.x };
         let (u, v) = (R::half() + x / twice, R::half() - d.y / twice);

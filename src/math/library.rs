@@ -59,6 +59,10 @@ impl Real for Library {
     fn is_finite(self) -> bool {
         self.0.is_finite()
     }
+    fn hypot(self, other: Self) -> Self {
+        // Its result is never -0, of which the library's atan2 makes half a turn.
+        Self(self.0.hypot(other.0))
+    }
     fn atan2(self, x: Self) -> Self {
         Self(self.0.atan2(x.0))
     }

@@ -25,7 +25,7 @@ pub enum Family {
     NoDirections,
     /// Seeded random bits, whatever number they are.
     Bits,
-    /// Along every edge of the cube, and across it by one ULP, in steps of f16, f32 and f64 rounded to f32.
+    /// Along every edge of the cube, and across it by one ULP, in steps of f16, of single floats, and of f64 rounded to f32.
     Walks,
 }
 
@@ -193,7 +193,11 @@ fn walks(effort: usize) -> Vec<[f32; 3]> {
                     // f16 has 11 bits; f64 on the unit sphere is rounded to f32.
                     let (along, size) = match kind {
                         0 => ((share * 2048.0).round() / 2048.0, 1.0),
-                        1 => (f64::from(step_ulps(share as f32, 1)), 1.0),
+                        // One float after the other, from 0.7 on: nothing may step back.
+                        1 => (
+                            f64::from(step_ulps(0.7, (share * steps as f64) as i32)),
+                            1.0,
+                        ),
                         _ => {
                             let length = (2.0 + share * share).sqrt();
                             (share / length, 1.0 / length)

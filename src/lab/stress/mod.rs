@@ -14,6 +14,7 @@ pub use families::Family;
 
 use crate::imaging::{Progress, Stage};
 use crate::mapping::MappingId;
+use crate::mapping::evaluator::EvaluatorInfo;
 use judge::Subject;
 
 /// What is asked of an evaluator on a family of inputs; in a row of a report beside what is allowed.
@@ -118,6 +119,11 @@ impl Plan {
             ..Self::full()
         }
     }
+}
+
+/// Asks one evaluator, in the list or not, on one family.
+pub fn ask(map: MappingId, evaluator: &EvaluatorInfo, family: Family, effort: usize) -> Row {
+    Subject::new(map, family, &family.inputs(effort), effort).row(evaluator)
 }
 
 /// Runs the plan on all cores; ends early, with what there is, when the progress is cancelled.

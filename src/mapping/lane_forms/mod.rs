@@ -17,9 +17,9 @@ use super::chart::MappingInfo;
 use super::slices::{Dirs, DirsMut, NOWHERE, Points, PointsMut};
 use super::{Domain, Mapping};
 use crate::math::approximation::{Arctangent, SineCosine};
-use crate::math::{Isa, nearest_whole};
+use crate::math::{Isa, Vec3, nearest_whole};
 
-/// Largest components that a form takes: as [`crate::math::Vec3::scaled_direction`].
+/// Largest components that a form takes: as [`Vec3::scaled_direction`].
 const SIZES: RangeInclusive<f32> = 1.0 / (1_u64 << 60) as f32..=(1_u64 << 60) as f32;
 
 /// A mapping's formula without a branch. `FUSED` says whether products and sums are fused, as far as the form uses it.
@@ -148,9 +148,14 @@ impl<M: LaneForm, A: Arctangent, const FUSED: bool> NullaryFnOnce for Forward<'_
                 continue;
             }
             for k in 0..n {
-                let dir = crate::math::Vec3::new(x[k], y[k], z[k]).scaled_direction();
-                (chart[k], u[k], v[k]) = match dir {
-                    Some(d) => clamped_point::<M, A, FUSED>(self.angles, d.x, d.y, d.z),
+                let dir = Vec3::new(x[k], y[k], z[k]);
+                (chart[k], u[k], v[k]) = match dir.scaled_direction() {
+                    Some(d) => clamped_point::<M, A, FUSED>(
+                        self.angles,
+                        with_side(d.x, dir.x),
+                        with_side(d.y, dir.y),
+                        with_side(d.z, dir.z),
+                    ),
                     None => (NOWHERE, 0.0, 0.0),
                 };
             }
@@ -223,6 +228,15 @@ fn clamped_point<M: LaneForm, A: Arctangent, const FUSED: bool>(
 ) -> (u32, f32, f32) {
     let (chart, u, v) = M::chart_point::<A, FUSED>(angles, x, y, z);
     (chart, clamp_unit(u), clamp_unit(v))
+}
+
+/// The scaled component, or the smallest number on its side of 0 where scaling has made it 0: charts are told apart by signs.
+fn with_side(scaled: f32, given: f32) -> f32 {
+    if scaled == 0.0 && given != 0.0 {
+        f32::from_bits(1).copysign(given)
+    } else {
+        scaled
+    }
 }
 
 /// A form's direction, zero off the chart.
