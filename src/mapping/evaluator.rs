@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use super::lane_forms::{self, LaneForm};
 use super::slices::{DirList, Dirs, DirsMut, NOWHERE, PointList, Points, PointsMut};
-use super::{ChartPoint, Mapping, MappingId};
+use super::{ChartPoint, ForwardFn, InverseFn, Mapping, MappingId};
 use crate::math::approximation::{
     Arctangent, Hastings9, Hastings17, LEVELS, Lagarde, Own, Pbrt, Published, Rajan2, Rajan3,
     Rational, SineCosine, Table,
@@ -116,8 +116,8 @@ pub(super) struct SeedForm {
     pub about: &'static str,
     pub source: &'static str,
     /// `None` also where the form itself finds no chart.
-    pub forward: fn(Vec3<f32>) -> Option<ChartPoint<f32>>,
-    pub inverse: Option<fn(ChartPoint<f32>) -> Option<Vec3<f32>>>,
+    pub forward: ForwardFn<f32>,
+    pub inverse: Option<InverseFn<f32>>,
 }
 
 /// Name of the evaluator that is used when none is asked for.

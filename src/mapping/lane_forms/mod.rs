@@ -267,6 +267,10 @@ fn fits_sizes(x: f32, y: f32, z: f32) -> bool {
 
 /// [`super::ChartPoint::is_on`] and [`Domain::contains`] without a branch.
 #[inline(always)]
+#[expect(
+    clippy::manual_range_contains,
+    reason = "a range looks no further when the first comparison fails: a branch"
+)]
 fn is_on(info: &MappingInfo, chart: u32, u: f32, v: f32) -> bool {
     let in_square = (u >= 0.0) & (u <= 1.0) & (v >= 0.0) & (v <= 1.0);
     let in_domain = match info.domain {

@@ -1,5 +1,10 @@
 //! Approximations from the literature, with the numbers that it prints.
 
+#![expect(
+    clippy::excessive_precision,
+    reason = "as they are printed; f32 rounds them"
+)]
+
 use std::f32::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4};
 
 use super::{Arctangent, SineCosine, horner, multiply_add};
@@ -102,13 +107,13 @@ impl Arctangent for Hastings17 {
     #[inline(always)]
     fn quarters<const FUSED: bool>(self, t: f32) -> f32 {
         const C: [f32; 8] = [
-            -0.333_331_45,
-            0.199_935_51,
-            -0.142_089,
-            0.106_562_64,
-            -0.075_289_64,
-            0.042_909_615,
-            -0.016_165_737,
+            -0.333_331_452_8,
+            0.199_935_508_5,
+            -0.142_088_994_4,
+            0.106_562_639_3,
+            -0.075_289_640_0,
+            0.042_909_613_8,
+            -0.016_165_736_7,
             0.002_866_225_7,
         ];
         let s = t * t;
@@ -121,16 +126,16 @@ impl SineCosine for Hastings17 {
     fn sin_cos_quarter<const FUSED: bool>(self, f: f32) -> (f32, f32) {
         const SIN: [f32; 6] = [
             1.0,
-            -0.166_666_67,
-            0.008_333_332,
-            -0.000_198_409,
+            -0.166_666_666_4,
+            0.008_333_331_5,
+            -0.000_198_409_0,
             0.000_002_752_6,
             -0.000_000_023_9,
         ];
         const COS: [f32; 6] = [
             1.0,
-            -0.5,
-            0.041_666_642,
+            -0.499_999_996_3,
+            0.041_666_641_8,
             -0.001_388_839_7,
             0.000_024_760_9,
             -0.000_000_260_5,
@@ -182,13 +187,13 @@ impl Arctangent for Pbrt {
     fn quarters<const FUSED: bool>(self, t: f32) -> f32 {
         // This one is printed for quarter turns.
         const C: [f32; 7] = [
-            0.406_758_57e-5,
-            0.636_226_55,
-            0.615_720_18e-2,
-            -0.247_333_73,
-            0.881_770_66e-1,
-            0.419_038_82e-1,
-            -0.251_390_97e-1,
+            0.406_758_566_2e-5,
+            0.636_226_545_3,
+            0.615_720_179e-2,
+            -0.247_333_733_3,
+            0.881_770_664_8e-1,
+            0.419_038_818_0e-1,
+            -0.251_390_972_3e-1,
         ];
         horner::<FUSED>(&C, t.abs()).copysign(t)
     }
