@@ -43,10 +43,6 @@ pub fn scatter(rows: &[Row]) -> Drawing {
     let columns = (maps.len() as f64).sqrt().ceil().max(1.0);
     let lines = (maps.len() as f64 / columns).ceil().max(1.0);
     let mut drawing = Drawing::new([columns * FIELD[0], lines * FIELD[1]].map(|c| c as u32));
-    let axes = [
-        Axis::over(shown.iter().map(|row| row.ns)),
-        Axis::over(shown.iter().map(|row| row.max_error_rad)),
-    ];
     for (k, map) in maps.iter().enumerate() {
         let corner = [
             k as f64 % columns * FIELD[0],
@@ -57,34 +53,59 @@ pub fn scatter(rows: &[Row]) -> Drawing {
             .copied()
             .filter(|row| row.mapping == *map)
             .collect();
+        let axes = [
+            Axis::over(rows.iter().map(|row| row.ns)),
+            Axis::over(rows.iter().map(|row| row.max_error_rad)),
+        ];
         field(&mut drawing, corner, map, axes, &rows);
     }
     drawing
 }
 
-/// Whole decades around the values.
+/// A logarithmic axis.
 #[derive(Clone, Copy)]
 struct Axis {
-    low: i32,
-    high: i32,
+    /// Decimal logarithms of its ends.
+    low: f64,
+    high: f64,
 }
 
 impl Axis {
+    /// A little more than the values.
     fn over(values: impl Iterator<Item = f64> + Clone) -> Self {
+        const ROOM: f64 = 0.1;
         let exponents = values.map(f64::log10);
-        let low = exponents.clone().fold(f64::INFINITY, f64::min).floor();
-        let high = exponents.fold(f64::NEG_INFINITY, f64::max).ceil();
-        let low = if low.is_finite() { low as i32 } else { 0 };
-        let high = if high.is_finite() { high as i32 } else { 1 };
+        let low = exponents.clone().fold(f64::INFINITY, f64::min);
+        let high = exponents.fold(f64::NEG_INFINITY, f64::max);
+        if low > high {
+            return Self {
+                low: 0.0,
+                high: 1.0,
+            };
+        }
         Self {
-            low,
-            high: high.max(low + 1),
+            low: low - ROOM,
+            high: high + ROOM,
         }
     }
 
     /// Share of the axis.
     fn share(self, value: f64) -> f64 {
-        (value.log10() - f64::from(self.low)) / f64::from(self.high - self.low)
+        (value.log10() - self.low) / (self.high - self.low)
+    }
+
+    /// Where lines are drawn: 1, 2 and 5 times the powers of ten, or those alone where there are many.
+    fn marks(self) -> Vec<f64> {
+        let steps: &[f64] = if self.high - self.low > 3.0 {
+            &[1.0]
+        } else {
+            &[1.0, 2.0, 5.0]
+        };
+        let powers = self.low.floor() as i32..=self.high.ceil() as i32;
+        let marks = powers.flat_map(|power| steps.iter().map(move |s| s * 10_f64.powi(power)));
+        marks
+            .filter(|mark| (0.0..=1.0).contains(&self.share(*mark)))
+            .collect()
     }
 }
 
@@ -103,23 +124,26 @@ fn field(
             corner[1] + top + (1.0 - error.share(rad)) * span[1],
         ]
     };
-    let decade = |exponent: i32| 10_f64.powi(exponent);
-    for exponent in time.low..=time.high {
-        let ends = [decade(error.low), decade(error.high)].map(|rad| place(decade(exponent), rad));
+    let (ns, rad) = (
+        [time.low, time.high].map(|c| 10_f64.powf(c)),
+        [error.low, error.high].map(|c| 10_f64.powf(c)),
+    );
+    for mark in time.marks() {
+        let ends = rad.map(|rad| place(mark, rad));
         drawing.line(&ends, 1.0, GRID);
         drawing.words(
-            &format!("1e{exponent}"),
-            [ends[0][0] - 10.0, ends[0][1] + 6.0],
+            &mark.to_string(),
+            [ends[0][0] - 6.0, ends[0][1] + 6.0],
             9.0,
             INK,
         );
     }
-    for exponent in error.low..=error.high {
-        let ends = [decade(time.low), decade(time.high)].map(|ns| place(ns, decade(exponent)));
+    for mark in error.marks() {
+        let ends = ns.map(|ns| place(ns, mark));
         drawing.line(&ends, 1.0, GRID);
         drawing.words(
-            &format!("1e{exponent}"),
-            [corner[0] + 14.0, ends[0][1] - 5.0],
+            &format!("{mark:.0e}"),
+            [corner[0] + 10.0, ends[0][1] - 5.0],
             9.0,
             INK,
         );
@@ -158,8 +182,12 @@ fn field(
         let radius = if row.on_front { 4.0 } else { 2.5 };
         drawing.disc(place(row.ns, row.max_error_rad), radius, colour(row));
     }
+    // From the top down, each name below the one before.
+    let mut lowest = f64::NEG_INFINITY;
     for row in front {
         let [x, y] = place(row.ns, row.max_error_rad);
-        drawing.words(row.evaluator, [x + 7.0, y - 9.0], 8.0, INK);
+        let top = (y - 9.0).max(lowest);
+        drawing.words(row.evaluator, [x + 7.0, top], 8.0, INK);
+        lowest = top + 10.0;
     }
 }
