@@ -16,9 +16,9 @@ pub(super) use paper::{from_s_t, fused_shader, printed, shader, to_s_t};
 use super::cube_face::{
     self, face_lanes, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane,
 };
+use super::{AngleLanes, DirLanes, LANES, Lane, Line, PointLanes};
 use super::{ChartPoint, Convention, Erratum, Mapping, MappingInfo, Step};
 use super::{evaluator, seed_forms};
-use super::{DirLanes, Lane, Line, PointLanes};
 use crate::math::{Real, Vec3, atan_unit, sin_cos_eighth};
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, PI, SQRT_2};
 
@@ -132,6 +132,19 @@ impl Mapping for Ccm {
                 let (sin, cos) = sin_cos_eighth(row[3] * columns[2][k]);
                 (cos * columns[0][k], sin, cos * columns[1][k])
             });
+        }
+    }
+
+    /// Those around +z and -z: their meridians are those of the sphere.
+    fn has_meridians(face: u32) -> bool {
+        face >= 4
+    }
+
+    #[inline(always)]
+    fn latitude_lanes(columns: [&Lane; 4], row: Line, latitudes: &mut AngleLanes) {
+        latitudes.base.fill(0.0);
+        for k in 0..LANES {
+            latitudes.rest[k] = -row[3] * columns[2][k];
         }
     }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::convention::{Convention, Erratum};
 use super::evaluator::EvaluatorInfo;
-use super::lanes::{self, DirLanes, Lane, Line, PointLanes};
+use super::lanes::{self, AngleLanes, DirLanes, Lane, Line, PointLanes};
 use super::layout::Layout;
 use crate::math::{Real, Vec3};
 
@@ -113,6 +113,34 @@ pub trait Mapping {
         Self: Sized,
     {
         lanes::inverse_each::<Self>(chart, columns, row, dirs);
+    }
+
+    /// Whether the columns of a chart are meridians: all texels of one have the same longitude.
+    fn has_meridians(chart: u32) -> bool {
+        let _ = chart;
+        false
+    }
+
+    /// Latitudes, in turns, of texels of one row of a chart that [has meridians](Self::has_meridians), from what their columns and
+    /// the row have in common.
+    #[inline(always)]
+    fn latitude_lanes(columns: [&Lane; 4], row: Line, latitudes: &mut AngleLanes)
+    where
+        Self: Sized,
+    {
+        let _ = (columns, row, latitudes);
+    }
+
+    /// Whether u depends on the longitude alone and v on the latitude alone: rows are parallels, columns meridians.
+    const HAS_PARALLELS: bool = false;
+
+    /// The v of latitudes in turns, where the mapping [has parallels](Self::HAS_PARALLELS); the rest of `points` is left as it is.
+    #[inline(always)]
+    fn parallel_lanes(latitudes: &AngleLanes, points: &mut PointLanes)
+    where
+        Self: Sized,
+    {
+        let _ = (latitudes, points);
     }
 
     /// The formula step by step with the numbers of `dir` put in; empty for a vector that is no direction.

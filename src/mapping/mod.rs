@@ -33,7 +33,7 @@ pub use convention::{Convention, Erratum, ForwardFn, InverseFn};
 pub use evaluator::{Cpu, Evaluator, EvaluatorError, EvaluatorInfo};
 pub use frame::{CubeFrame, Founded, Frame, FrameError, Pictures, UnknownFrame};
 pub use jacobian::Jacobian;
-pub use lanes::{DirLanes, LANES, Lane, Line, PointLanes};
+pub use lanes::{AngleLanes, DirLanes, LANES, Lane, Line, PointLanes};
 pub use layout::{Cell, Layout};
 pub use slices::{DirList, Dirs, DirsMut, NOWHERE, PointList, Points, PointsMut};
 pub use turn::Turn;

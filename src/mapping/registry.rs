@@ -92,6 +92,28 @@ macro_rules! registry {
                 match self { $(Self::$mapping => evaluator::inverse_in::<R, $module::$mapping>(points, dirs),)+ }
             }
 
+            /// See [`Mapping::has_meridians`].
+            pub fn has_meridians(self, chart: u32) -> bool {
+                match self { $(Self::$mapping => $module::$mapping::has_meridians(chart),)+ }
+            }
+
+            /// See [`Mapping::latitude_lanes`].
+            #[inline(always)]
+            pub fn latitude_lanes(self, columns: [&Lane; 4], row: Line, latitudes: &mut AngleLanes) {
+                match self { $(Self::$mapping => $module::$mapping::latitude_lanes(columns, row, latitudes),)+ }
+            }
+
+            /// See [`Mapping::HAS_PARALLELS`].
+            pub fn has_parallels(self) -> bool {
+                match self { $(Self::$mapping => <$module::$mapping as Mapping>::HAS_PARALLELS,)+ }
+            }
+
+            /// See [`Mapping::parallel_lanes`].
+            #[inline(always)]
+            pub fn parallel_lanes(self, latitudes: &AngleLanes, points: &mut PointLanes) {
+                match self { $(Self::$mapping => $module::$mapping::parallel_lanes(latitudes, points),)+ }
+            }
+
             /// [`Mapping::forward`] of a slice, with one dispatch; stops at the shorter of the two.
             pub fn forward_slice<R: Real>(self, dirs: &[Vec3<R>], out: &mut [Option<ChartPoint<R>>]) {
                 match self {

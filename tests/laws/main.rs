@@ -13,6 +13,7 @@
 mod area;
 mod charts;
 mod inputs;
+mod meridians;
 mod published;
 mod report;
 mod round_trip;

@@ -32,6 +32,7 @@ mod lane_places;
 mod levels;
 mod lookups;
 mod plan;
+mod prefetch;
 mod report;
 mod stored;
 mod strips;

@@ -166,7 +166,7 @@ impl Gutter {
     }
 }
 
-/// Sweeps over the gutter, each finding every texel's light again from the others'. A square chart's gutter needs two, since
+/// Most sweeps over the gutter, each finding every texel's light again from the others'. A square chart's gutter needs two, since
 /// its texels lie over texels that the neighbour owns, or over its gutter at a corner; along rims a fourth changes the sixth digit.
 const SWEEPS: u32 = 4;
 
@@ -216,8 +216,14 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
             return;
         }
         for _ in 0..SWEEPS {
+            let mut is_settled = true;
             for index in 0..count {
-                self.light[index] = self.settled(index);
+                let light = self.settled(index);
+                is_settled &= light == self.light[index];
+                self.light[index] = light;
+            }
+            if is_settled {
+                break;
             }
         }
     }
