@@ -55,7 +55,7 @@ impl Plan {
     pub fn quick() -> Self {
         Self {
             inputs: vec![Inputs::Random],
-            many: 1 << 20,
+            many: 1 << 19,
             judged: 1 << 14,
             clock: Clock {
                 samples: 5,
