@@ -27,7 +27,7 @@ const LAYERS: [(&str, &[&str]); 10] = [
 ];
 
 /// Outside crates that stay behind one layer's door, and the layers that may name them.
-const FENCED_CRATES: [(&str, &[&str]); 21] = [
+const FENCED_CRATES: [(&str, &[&str]); 22] = [
     ("wgpu", &["gpu", "app"]),
     ("bytemuck", &["gpu"]),
     ("pollster", &["gpu"]),
@@ -40,6 +40,7 @@ const FENCED_CRATES: [(&str, &[&str]); 21] = [
     ("clap", &["cli"]),
     ("image", &["imaging"]),
     ("indicatif", &["cli"]),
+    ("signal_hook", &["cli"]),
     ("pulp", &["math", "mapping", "imaging"]),
     ("rayon", &["imaging", "lab"]),
     ("ruzstd", &["imaging"]),

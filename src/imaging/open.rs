@@ -323,9 +323,17 @@ fn shaped(
 ) -> Result<MapShape, String> {
     if let Some(frame) = hints.frame {
         chosen.frame = Some(frame);
-        if frame.is_edge_sited {
-            chosen.siting = Siting::Edge;
-        }
+        // What is known of a program says more than pixels, which are alike on both sides of an even border.
+        chosen.siting = if frame.is_edge_sited {
+            Siting::Edge
+        } else {
+            Siting::Centre
+        };
+    } else if chosen.siting == Siting::Edge && hints.siting.is_none() && chosen.frame.is_none() {
+        notes.push(
+            "its texels are the same on both sides of its borders: taken as `--from-samples edge`"
+                .to_owned(),
+        );
     }
     chosen.siting = hints.siting.unwrap_or(chosen.siting);
     let unfit = || {

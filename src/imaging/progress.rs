@@ -1,5 +1,6 @@
 //! How far a job is, and the wish that it stop.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, Ordering};
 
 /// What a job is doing.
@@ -61,7 +62,7 @@ impl Stage {
 pub struct Progress {
     fraction_bits: AtomicU32,
     stage: AtomicU8,
-    cancelled: AtomicBool,
+    cancelled: Arc<AtomicBool>,
 }
 
 impl Progress {
@@ -89,6 +90,11 @@ impl Progress {
     /// Whether the job was asked to stop.
     pub fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)
+    }
+
+    /// What [`Self::cancel`] sets, for those who can only set a flag: a signal's handler.
+    pub fn cancel_flag(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.cancelled)
     }
 
     /// Reports a new stage; its fraction starts at 0.

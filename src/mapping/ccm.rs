@@ -16,7 +16,7 @@ pub(super) use paper::{from_s_t, fused_shader, printed, shader, to_s_t};
 use super::cube_face::{
     self, face_lanes, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane,
 };
-use super::{AngleLanes, DirLanes, LANES, Lane, Line, PointLanes};
+use super::{AngleLanes, DirLanes, Lane, Line, PointLanes};
 use super::{ChartPoint, Convention, Erratum, Mapping, MappingInfo, Step};
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3, atan_unit, sin_cos_eighth};
@@ -143,8 +143,8 @@ impl Mapping for Ccm {
     #[inline(always)]
     fn latitude_lanes(columns: [&Lane; 4], row: Line, latitudes: &mut AngleLanes) {
         latitudes.base.fill(0.0);
-        for k in 0..LANES {
-            latitudes.rest[k] = -row[3] * columns[2][k];
+        for (rest, column) in latitudes.rest.iter_mut().zip(columns[2]) {
+            *rest = -row[3] * column;
         }
     }
 

@@ -82,6 +82,23 @@ pub trait Mapping {
     /// the same.
     fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R>;
 
+    /// Parts of each chart in which the mapping is smooth, convex ones: between them it is bent, as the octahedron's square is
+    /// along the octahedron's edges. Most mappings are smooth on all of a chart.
+    const FACETS: u32 = 1;
+
+    /// The part, below [`FACETS`](Self::FACETS), in which a point of a chart lies.
+    fn facet<R: Real>(point: ChartPoint<R>) -> u32 {
+        let _ = point;
+        0
+    }
+
+    /// [`inverse`](Self::inverse) by the formula of one part, continued beyond its borders so that light between texels on both
+    /// sides of them is where it belongs. By itself [`continued`](Self::continued), which has to stay at the border within an ULP.
+    fn extended<R: Real>(facet: u32, point: ChartPoint<R>) -> Vec3<R> {
+        let _ = facet;
+        Self::continued(point)
+    }
+
     /// Whether the functions on lanes below are the mapping's own, free of branches.
     const HAS_LANES: bool = false;
 

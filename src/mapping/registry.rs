@@ -50,6 +50,21 @@ macro_rules! registry {
                 match self { $(Self::$mapping => $module::$mapping::continued(point),)+ }
             }
 
+            /// See [`Mapping::FACETS`].
+            pub fn facets(self) -> u32 {
+                match self { $(Self::$mapping => <$module::$mapping as Mapping>::FACETS,)+ }
+            }
+
+            /// See [`Mapping::facet`].
+            pub fn facet<R: Real>(self, point: ChartPoint<R>) -> u32 {
+                match self { $(Self::$mapping => $module::$mapping::facet(point),)+ }
+            }
+
+            /// See [`Mapping::extended`].
+            pub fn extended<R: Real>(self, facet: u32, point: ChartPoint<R>) -> Vec3<R> {
+                match self { $(Self::$mapping => $module::$mapping::extended(facet, point),)+ }
+            }
+
             /// See [`Mapping::steps`].
             pub fn steps<R: Real + std::fmt::Display>(self, dir: Vec3<R>) -> Vec<Step> {
                 match self { $(Self::$mapping => $module::$mapping::steps(dir),)+ }

@@ -3,11 +3,6 @@
 //! All four taps are mixed without asking whether they lie on the chart. Texels whose taps do not are found again one by one with
 //! the gutter.
 
-#![expect(
-    clippy::needless_range_loop,
-    reason = "a lane is an index into several lists at once"
-)]
-
 use pulp::NullaryFnOnce;
 
 use super::encode::Encoder;
