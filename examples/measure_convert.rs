@@ -58,6 +58,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                         &latlong,
                     ),
                     (
+                        "latlong to cube, a pole's face",
+                        with(&|c| c.charts = 1 << 2),
+                        &latlong,
+                    ),
+                    (
                         "latlong to cube, rotated",
                         with(&|c| c.rotation = turned()),
                         &latlong,

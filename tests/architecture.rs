@@ -23,7 +23,7 @@ const LAYERS: [(&str, &[&str]); 9] = [
 ];
 
 /// Outside crates that stay behind one layer's door, and the layers that may name them.
-const FENCED_CRATES: [(&str, &[&str]); 21] = [
+const FENCED_CRATES: [(&str, &[&str]); 22] = [
     ("wgpu", &["gpu", "app"]),
     ("bytemuck", &["gpu"]),
     ("pollster", &["gpu"]),
@@ -36,6 +36,7 @@ const FENCED_CRATES: [(&str, &[&str]); 21] = [
     ("clap", &["cli"]),
     ("image", &["imaging"]),
     ("indicatif", &["cli"]),
+    ("signal_hook", &["cli"]),
     ("pulp", &["imaging"]),
     ("rayon", &["imaging"]),
     ("ruzstd", &["imaging"]),

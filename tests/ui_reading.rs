@@ -244,6 +244,32 @@ fn a_square_is_asked_about_and_decoded_once() {
 }
 
 #[test]
+fn a_picture_of_no_known_shape_opens_when_the_user_says_what_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let laid = Laid {
+        size: [3 * FACE, 2 * FACE - 1],
+        ..Laid::new(MappingId::Octahedral, Layout::Single, 1)
+    };
+    let path = write(folder.path(), "odd.exr", &laid.map(photograph).rasters()[0]);
+    let mut ui = open(small());
+    run(&mut ui, Command::Open(path));
+    // The refusal stands in the dialog, in its words and not in the command line's.
+    ui.get_by_label_contains("has the shape of no known map; name its mapping and layout");
+    assert!(ui.query_by_label_contains("--from").is_none());
+    click(&mut ui, Role::Button, "Open");
+    assert!(is_asked(&ui, "odd.exr"), "there is nothing to open yet");
+    click(&mut ui, Role::ComboBox, "mapping");
+    click(&mut ui, Role::Button, "Equi-angular cube");
+    ui.get_by_label_contains("cannot be `eac`; name another mapping or layout");
+    click(&mut ui, Role::ComboBox, "mapping");
+    click(&mut ui, Role::Button, "Octahedral");
+    assert!(ui.query_by_label_contains("name another mapping").is_none());
+    click(&mut ui, Role::Button, "Open");
+    assert_eq!(file(&ui).hints.layout, Some(Layout::Single));
+    assert!(worst(&ui, |dir| dir) < CLOSE);
+}
+
+#[test]
 fn faces_are_said_one_by_one() {
     let folder = tempfile::tempdir().unwrap();
     let path = cross(folder.path(), "turned.exr", "+x,-x,+y:180,-y,+z,-z");

@@ -32,7 +32,7 @@ const OTHERS: f32 = 160.0;
 /// Width of the dialog: both columns, as far as the window has room.
 pub fn reading_width(ui: &Ui) -> f32 {
     let room = ui.ctx().content_rect().width() - AROUND;
-    room.min(FORM_WIDTH + GAP + PICTURES_WIDTH).max(FORM_WIDTH)
+    room.clamp(FORM_WIDTH, FORM_WIDTH + GAP + PICTURES_WIDTH)
 }
 
 /// The whole dialog; true when it is done with.

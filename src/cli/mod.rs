@@ -1,7 +1,7 @@
 //! The command line.
 //!
 //! Standard output carries data only; messages go to standard error, one line each. Exit status: 0 done, 1 the work
-//! failed, 2 wrong usage. What needs the window or the GPU is not done here but handed back as a [`Request`].
+//! failed, 2 wrong usage, 130 stopped by Ctrl-C. What needs the window or the GPU is not done here but handed back as a [`Request`].
 
 mod convert;
 mod csv;
@@ -27,6 +27,8 @@ pub const DONE: u8 = 0;
 pub const FAILED: u8 = 1;
 /// The command line was wrong.
 pub const USAGE: u8 = 2;
+/// The user has stopped it: 128 and the number of the signal that Ctrl-C sends, as shells say it.
+pub const INTERRUPTED: u8 = 130;
 
 /// What is left to do after the command line has been read.
 #[derive(Clone, Debug, PartialEq)]
@@ -161,6 +163,7 @@ fn status_of(result: Result<u8, CliError>) -> u8 {
     complain(&error);
     match error {
         CliError::Usage(_) | CliError::Convert(convert::ConvertError::Usage(_)) => USAGE,
+        CliError::Convert(convert::ConvertError::Interrupted) => INTERRUPTED,
         _ => FAILED,
     }
 }

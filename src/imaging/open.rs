@@ -91,6 +91,14 @@ impl Pictures {
             notes.push("taken as `cube`; pixels cannot tell it from `eac` and `ccm`".to_owned());
         }
         let (shape, misfit) = shaped(&mut chosen, hints, rasters).map_err(untold)?;
+        let is_siting_said =
+            hints.siting.is_some() || hints.frame.is_some() || chosen.frame.is_some();
+        if chosen.siting == Siting::Edge && !is_siting_said {
+            notes.push(
+                "its texels are the same on both sides of its borders: taken as edge samples"
+                    .to_owned(),
+            );
+        }
         // Of what was said it is not known yet, and faces that are arranged in another way meet in another way.
         if !hints.is_empty() {
             chosen.score = seams(&shape, rasters).and_then(|seams| seams.score());
@@ -195,9 +203,12 @@ fn shaped(
 ) -> Result<(MapShape, Option<Solution>), String> {
     if let Some(frame) = hints.frame {
         chosen.frame = Some(frame);
-        if frame.is_edge_sited {
-            chosen.siting = Siting::Edge;
-        }
+        // What is known of a program says more than pixels, which are alike on both sides of an even border.
+        chosen.siting = if frame.is_edge_sited {
+            Siting::Edge
+        } else {
+            Siting::Centre
+        };
     }
     chosen.siting = hints.siting.unwrap_or(chosen.siting);
     let unfit = || {

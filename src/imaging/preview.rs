@@ -1,6 +1,6 @@
 //! Small pictures of a map, to see which way round it is.
 
-use super::resample::{Conversion, Filter, ResampleError, resample};
+use super::resample::{Conversion, Filter, ResampleError, equal_height, resample};
 use super::{
     Channels, Environment, EnvironmentMap, LoadError, LoadProblem, Progress, Raster, SampleKind,
     Samples, Transfer,
@@ -20,10 +20,11 @@ pub struct Preview {
 const FACE: u32 = 96;
 /// Texels along a side of the ball's picture.
 const BALL: u32 = 192;
-/// Places along a side of a texel: at 16 a texel, a panorama of 4096 texels around is asked everywhere.
-const PLACES: u32 = 4;
-/// Rows of the labelled environment: four texels for one of the cross, so that thin lines stay.
-const LABELLED_ROWS: u32 = 512;
+/// Most places along a side of a texel: with the two texels that each is mixed from, a panorama of 3072 texels around is seen
+/// whole, and of a larger one a part that is large enough.
+const MOST_PLACES: u32 = 4;
+/// Rows of the labelled environment: two of its texels along one of the cross.
+const LABELLED_ROWS: u32 = 4 * FACE;
 
 impl Preview {
     /// The pictures of a map. Floats are exposed so that their middle is a middle grey.
@@ -39,11 +40,13 @@ impl Preview {
         exposure_ev: f64,
         progress: &Progress,
     ) -> Result<Self, ResampleError> {
+        let texels = equal_height(MappingId::Cube, map.shape()).div_ceil(FACE);
+        let supersample = texels.clamp(1, MOST_PLACES);
         let picture = |mapping, side, layout| {
             let conversion = Conversion {
                 layout,
                 filter: Some(Filter::Bilinear),
-                supersample: PLACES,
+                supersample,
                 exposure_ev,
                 samples: SampleKind::U8,
                 transfer: Transfer::Srgb,

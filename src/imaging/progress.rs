@@ -1,5 +1,6 @@
 //! How far a job is, and the wish that it stop.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -58,7 +59,7 @@ impl Stage {
 pub struct Progress {
     fraction_bits: AtomicU32,
     stage: AtomicU8,
-    cancelled: AtomicBool,
+    cancelled: Arc<AtomicBool>,
     start: Instant,
     /// When the present stage began, after the start.
     stage_start_ms: AtomicU64,
@@ -69,7 +70,7 @@ impl Default for Progress {
         Self {
             fraction_bits: AtomicU32::default(),
             stage: AtomicU8::default(),
-            cancelled: AtomicBool::default(),
+            cancelled: Arc::default(),
             start: Instant::now(),
             stage_start_ms: AtomicU64::default(),
         }
@@ -107,6 +108,11 @@ impl Progress {
     /// Whether the job was asked to stop.
     pub fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)
+    }
+
+    /// What [`Self::cancel`] sets, for those who can only set a flag: a signal's handler.
+    pub fn cancel_flag(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.cancelled)
     }
 
     /// Reports a new stage; its fraction starts at 0.

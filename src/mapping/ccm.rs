@@ -14,8 +14,8 @@ mod paper;
 use super::cube_face::{
     self, face_lanes, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane,
 };
+use super::{AngleLanes, DirLanes, Lane, Line, PointLanes};
 use super::{ChartPoint, Convention, Erratum, EvaluatorInfo, Mapping, MappingInfo, Step};
-use super::{DirLanes, Lane, Line, PointLanes};
 use crate::math::{Real, Vec3, atan_unit, sin_cos_eighth};
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, PI, SQRT_2};
 
@@ -133,6 +133,19 @@ impl Mapping for Ccm {
                 let (sin, cos) = sin_cos_eighth(row[3] * columns[2][k]);
                 (cos * columns[0][k], sin, cos * columns[1][k])
             });
+        }
+    }
+
+    /// Those around +z and -z: their meridians are those of the sphere.
+    fn has_meridians(face: u32) -> bool {
+        face >= 4
+    }
+
+    #[inline(always)]
+    fn latitude_lanes(columns: [&Lane; 4], row: Line, latitudes: &mut AngleLanes) {
+        latitudes.base.fill(0.0);
+        for (rest, column) in latitudes.rest.iter_mut().zip(columns[2]) {
+            *rest = -row[3] * column;
         }
     }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::convention::{Convention, Erratum};
 use super::evaluator::EvaluatorInfo;
-use super::lanes::{self, DirLanes, Lane, Line, PointLanes};
+use super::lanes::{self, AngleLanes, DirLanes, Lane, Line, PointLanes};
 use super::layout::Layout;
 use crate::math::{Real, Vec3};
 
@@ -82,6 +82,23 @@ pub trait Mapping {
     /// the same.
     fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R>;
 
+    /// Parts of each chart in which the mapping is smooth, convex ones: between them it is bent, as the octahedron's square is
+    /// along the octahedron's edges. Most mappings are smooth on all of a chart.
+    const FACETS: u32 = 1;
+
+    /// The part, below [`FACETS`](Self::FACETS), in which a point of a chart lies.
+    fn facet<R: Real>(point: ChartPoint<R>) -> u32 {
+        let _ = point;
+        0
+    }
+
+    /// [`inverse`](Self::inverse) by the formula of one part, continued beyond its borders so that light between texels on both
+    /// sides of them is where it belongs. By itself [`continued`](Self::continued), which has to stay at the border within an ULP.
+    fn extended<R: Real>(facet: u32, point: ChartPoint<R>) -> Vec3<R> {
+        let _ = facet;
+        Self::continued(point)
+    }
+
     /// Whether the functions on lanes below are the mapping's own, free of branches.
     const HAS_LANES: bool = false;
 
@@ -113,6 +130,34 @@ pub trait Mapping {
         Self: Sized,
     {
         lanes::inverse_each::<Self>(chart, columns, row, dirs);
+    }
+
+    /// Whether the columns of a chart are meridians: all texels of one have the same longitude.
+    fn has_meridians(chart: u32) -> bool {
+        let _ = chart;
+        false
+    }
+
+    /// Latitudes, in turns, of texels of one row of a chart that [has meridians](Self::has_meridians), from what their columns and
+    /// the row have in common.
+    #[inline(always)]
+    fn latitude_lanes(columns: [&Lane; 4], row: Line, latitudes: &mut AngleLanes)
+    where
+        Self: Sized,
+    {
+        let _ = (columns, row, latitudes);
+    }
+
+    /// Whether u depends on the longitude alone and v on the latitude alone: rows are parallels, columns meridians.
+    const HAS_PARALLELS: bool = false;
+
+    /// The v of latitudes in turns, where the mapping [has parallels](Self::HAS_PARALLELS); the rest of `points` is left as it is.
+    #[inline(always)]
+    fn parallel_lanes(latitudes: &AngleLanes, points: &mut PointLanes)
+    where
+        Self: Sized,
+    {
+        let _ = (latitudes, points);
     }
 
     /// The formula step by step with the numbers of `dir` put in; empty for a vector that is no direction.

@@ -2,9 +2,13 @@
 
 use super::chart::{to_signed, to_unit};
 use super::cube_face::{
-    self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, largest_component,
+    self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, is_side,
+    largest_component, shallow_latitudes,
 };
-use super::{ChartPoint, Convention, DirLanes, Lane, Line, Mapping, MappingInfo, PointLanes, Step};
+use super::{
+    AngleLanes, ChartPoint, Convention, DirLanes, Lane, Line, Mapping, MappingInfo, PointLanes,
+    Step,
+};
 use crate::math::{Real, Vec3};
 
 /// See the [module](self).
@@ -44,12 +48,24 @@ impl Mapping for Cube {
     }
 
     fn line(_: usize, coordinate: f64) -> Line {
-        [to_signed(coordinate) as f32, 0.0, 0.0, 0.0]
+        let a = to_signed(coordinate);
+        // On the side faces the tangent of the latitude is -b over the distance from the y axis.
+        let nearness = 1.0 / 1.0.hypot(a);
+        [a as f32, nearness as f32, 0.0, 0.0]
     }
 
     #[inline(always)]
     fn inverse_lanes(face: u32, columns: [&Lane; 4], row: Line, dirs: &mut DirLanes) {
         frame_lanes(face, dirs, |k| (columns[0][k], row[0], 1.0));
+    }
+
+    fn has_meridians(face: u32) -> bool {
+        is_side(face)
+    }
+
+    #[inline(always)]
+    fn latitude_lanes(columns: [&Lane; 4], row: Line, latitudes: &mut AngleLanes) {
+        shallow_latitudes(latitudes, |k| -row[0] * columns[1][k]);
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

@@ -7,8 +7,8 @@
 //! rounded dot products leave holes.
 
 use super::chart::to_signed;
-use super::{DirLanes, LANES, Layout, MappingInfo, PointLanes, Step};
-use crate::math::{Real, Vec3};
+use super::{AngleLanes, DirLanes, LANES, Layout, MappingInfo, PointLanes, Step};
+use crate::math::{Real, Vec3, atan_turns};
 
 /// Names of the six charts.
 pub const FACES: &[&str] = &["+x", "-x", "+y", "-y", "+z", "-z"];
@@ -333,6 +333,20 @@ pub fn face_lanes(
         let (face, a, b) = choose(dirs.x[k], dirs.y[k], dirs.z[k]);
         points.chart[k] = face;
         (points.rest_u[k], points.rest_v[k]) = place(face, a, b);
+    }
+}
+
+/// Whether a face stands upright around the y axis.
+pub const fn is_side(face: u32) -> bool {
+    face & 6 != 2
+}
+
+/// Latitudes of at most an eighth of a turn, from their tangents.
+#[inline(always)]
+pub fn shallow_latitudes(latitudes: &mut AngleLanes, tangent: impl Fn(usize) -> f32) {
+    latitudes.base.fill(0.0);
+    for k in 0..LANES {
+        latitudes.rest[k] = atan_turns(tangent(k));
     }
 }
 

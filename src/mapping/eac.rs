@@ -1,9 +1,10 @@
 //! Equi-angular cube: each face is divided by angle instead of by tangent.
 
 use super::cube_face::{
-    self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, largest_component,
+    self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, is_side,
+    largest_component, shallow_latitudes,
 };
-use super::{ChartPoint, DirLanes, Lane, Line, Mapping, MappingInfo, PointLanes, Step};
+use super::{AngleLanes, ChartPoint, DirLanes, Lane, Line, Mapping, MappingInfo, PointLanes, Step};
 use crate::math::{Real, Vec3, atan_unit};
 use std::f64::consts::FRAC_1_PI;
 
@@ -44,7 +45,7 @@ impl Mapping for Eac {
 
     fn line(_: usize, coordinate: f64) -> Line {
         let (sin, cos) = ((coordinate - 0.5) * 0.25).sin_cos_turns();
-        [sin as f32, cos as f32, 0.0, 0.0]
+        [sin as f32, cos as f32, (sin / cos) as f32, 0.0]
     }
 
     #[inline(always)]
@@ -55,6 +56,16 @@ impl Mapping for Eac {
             let (sin, cos) = (columns[0][k], columns[1][k]);
             (sin * row_cos, row_sin * cos, cos * row_cos)
         });
+    }
+
+    fn has_meridians(face: u32) -> bool {
+        is_side(face)
+    }
+
+    #[inline(always)]
+    fn latitude_lanes(columns: [&Lane; 4], row: Line, latitudes: &mut AngleLanes) {
+        // The row's tangent over the distance from the y axis, which is 1/cos.
+        shallow_latitudes(latitudes, |k| -row[2] * columns[1][k]);
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {

@@ -18,11 +18,13 @@ use crate::math::{Real, Vec3};
 /// all that a texel needs stays in the first-level cache.
 pub const LANES: usize = 128;
 
-/// One number for each lane.
+/// One number for each lane. Structures of them are aligned to 64 bytes, the widest vector: one that lies across two lines of the
+/// cache costs two accesses, and across two pages many.
 pub type Lane = [f32; LANES];
 
 /// Directions of any length but zero.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 pub struct DirLanes {
     /// To the right.
     pub x: Lane,
@@ -32,11 +34,24 @@ pub struct DirLanes {
     pub z: Lane,
 }
 
+/// Angles in turns, each split as `base + rest`.
+///
+/// A base is a multiple of 1/8, a rest at most that large, so that angles near a quarter of a turn keep the digits of small ones.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub struct AngleLanes {
+    /// Multiples of 1/8.
+    pub base: Lane,
+    /// The rest.
+    pub rest: Lane,
+}
+
 /// Chart points, each coordinate split: `u = base_u + rest_u`, and so with v.
 ///
 /// A base is a multiple of 1/8, so its place in texels is exact, and what was computed keeps the digits of the small rest: in
 /// charts of 16384 texels a coordinate in one f32 would be rounded by half a thousandth of a texel.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 pub struct PointLanes {
     /// Chart, or [`PointLanes::NOWHERE`].
     pub chart: [u32; LANES],
@@ -61,6 +76,15 @@ impl Default for DirLanes {
             x: [0.0; LANES],
             y: [0.0; LANES],
             z: [0.0; LANES],
+        }
+    }
+}
+
+impl Default for AngleLanes {
+    fn default() -> Self {
+        Self {
+            base: [0.0; LANES],
+            rest: [0.0; LANES],
         }
     }
 }

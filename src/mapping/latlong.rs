@@ -2,8 +2,8 @@
 //!
 //! The centre of the picture looks along +z, +x lies to the right, +y is up. Grimm and Niebruegge, equations 1 to 4.
 
+use super::{AngleLanes, DirLanes, LANES, Lane, Line, PointLanes};
 use super::{ChartPoint, Convention, Erratum, Mapping, MappingInfo, Step};
-use super::{DirLanes, LANES, Lane, Line, PointLanes};
 use crate::math::{Real, Vec3, atan2_turns};
 use std::f64::consts::FRAC_1_PI;
 
@@ -74,12 +74,15 @@ impl Mapping for Latlong {
     }
 
     fn line(side: usize, coordinate: f64) -> Line {
-        let angle = if side == 0 {
-            longitude(coordinate)
-        } else {
-            colatitude(coordinate)
-        };
-        [angle.0 as f32, angle.1 as f32, 0.0, 0.0]
+        if side == 0 {
+            let (sin, cos) = longitude(coordinate);
+            return [sin as f32, cos as f32, 0.0, 0.0];
+        }
+        let (sin, cos) = colatitude(coordinate);
+        let latitude_turns = 0.5 * (0.5 - coordinate);
+        let base = (8.0 * latitude_turns).round() / 8.0;
+        let rest = latitude_turns - base;
+        [sin as f32, cos as f32, base as f32, rest as f32]
     }
 
     #[inline(always)]
@@ -92,6 +95,26 @@ impl Mapping for Latlong {
             dirs.x[k] = row[0] * columns[0][k];
             dirs.y[k] = row[1];
             dirs.z[k] = row[0] * columns[1][k];
+        }
+    }
+
+    fn has_meridians(_: u32) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn latitude_lanes(_: [&Lane; 4], row: Line, latitudes: &mut AngleLanes) {
+        latitudes.base.fill(row[2]);
+        latitudes.rest.fill(row[3]);
+    }
+
+    const HAS_PARALLELS: bool = true;
+
+    #[inline(always)]
+    fn parallel_lanes(latitudes: &AngleLanes, points: &mut PointLanes) {
+        for k in 0..LANES {
+            points.base_v[k] = 0.5 - 2.0 * latitudes.base[k];
+            points.rest_v[k] = -2.0 * latitudes.rest[k];
         }
     }
 

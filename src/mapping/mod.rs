@@ -30,7 +30,7 @@ pub use convention::{Convention, Erratum, ForwardFn, InverseFn};
 pub use evaluator::{Cpu, Evaluator, EvaluatorError, EvaluatorInfo, SHARED_EVALUATORS};
 pub use frame::{CubeFrame, Founded, Frame, FrameError, Pictures, UnknownFrame};
 pub use jacobian::Jacobian;
-pub use lanes::{DirLanes, LANES, Lane, Line, PointLanes};
+pub use lanes::{AngleLanes, DirLanes, LANES, Lane, Line, PointLanes};
 pub use layout::{Cell, Layout};
 pub use turn::Turn;
 

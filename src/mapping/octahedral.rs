@@ -35,6 +35,24 @@ impl Mapping for Octahedral {
         Vec3::new(x, y, z).normalized()
     }
 
+    const FACETS: u32 = 8;
+
+    fn facet<R: Real>(point: ChartPoint<R>) -> u32 {
+        octant(point)
+    }
+
+    /// The plane of the octahedron's face goes on.
+    fn extended<R: Real>(facet: u32, point: ChartPoint<R>) -> Vec3<R> {
+        let Octant { signs, legs } = Octant::of(facet, point);
+        let y = R::one() - legs[0] - legs[1];
+        let [x, z] = if facet & BELOW == 0 {
+            legs
+        } else {
+            [R::one() - legs[1], R::one() - legs[0]]
+        };
+        Vec3::new(x * signs[0], y, z * signs[1]).normalized()
+    }
+
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
         let (Some(d), Some(point)) = (dir.scaled_direction(), Self::forward(dir)) else {
             return Vec::new();
@@ -72,6 +90,40 @@ impl Mapping for Octahedral {
             format!("({oz} + 1)/2 = {}", point.v),
         ));
         steps
+    }
+}
+
+/// Bits of a facet's number: x is negative, z is, y is.
+const LEFT: u32 = 1;
+const BEHIND: u32 = 2;
+pub(super) const BELOW: u32 = 4;
+
+/// The face of the octahedron on which a point of the square lies.
+pub(super) fn octant<R: Real>(point: ChartPoint<R>) -> u32 {
+    let (x, z) = (to_signed(point.u), to_signed(point.v));
+    let bit = |is_so: bool, bit: u32| if is_so { bit } else { 0 };
+    bit(x < R::zero(), LEFT)
+        | bit(z < R::zero(), BEHIND)
+        | bit(x.abs() + z.abs() > R::one(), BELOW)
+}
+
+/// A point as one face sees it.
+pub(super) struct Octant<R> {
+    /// Of x and z in the face.
+    pub signs: [R; 2],
+    /// x and z from the square's middle, counted with these signs: not negative within the face.
+    pub legs: [R; 2],
+}
+
+impl<R: Real> Octant<R> {
+    pub fn of(facet: u32, point: ChartPoint<R>) -> Self {
+        let sign = |bit: u32| if facet & bit == 0 { R::one() } else { -R::one() };
+        let signs = [sign(LEFT), sign(BEHIND)];
+        let legs = [
+            to_signed(point.u) * signs[0],
+            to_signed(point.v) * signs[1],
+        ];
+        Self { signs, legs }
     }
 }
 

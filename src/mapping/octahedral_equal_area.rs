@@ -3,7 +3,7 @@
 //! Each octant's triangle is mapped with equal area: 4 pi sr per unit of chart area everywhere.
 
 use super::chart::{to_signed, to_unit};
-use super::octahedral::{fold, wrap};
+use super::octahedral::{BELOW, Octant, fold, octant, wrap};
 use super::{ChartPoint, Claims, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 use std::f64::consts::FRAC_1_PI;
@@ -46,22 +46,37 @@ impl Mapping for OctahedralEqualArea {
         if below {
             (x, z) = fold(x, z);
         }
-        // After the fold both halves look alike: the octant, its radius and the share of the quarter turn.
-        let radius = x.abs() + z.abs();
-        let share = if radius > R::zero() {
-            z.abs() / radius
-        } else {
-            R::zero()
-        };
-        let (sin, cos) = (share * R::from_f64(0.25)).sin_cos_turns();
-        // sin(colatitude) = r sqrt(2 - r^2), cos(colatitude) = 1 - r^2.
-        let across = radius * (R::two() - radius * radius).max(R::zero()).sqrt();
-        let up = (R::one() - radius) * (R::one() + radius);
+        // After the fold both halves look alike.
+        let dir = in_octant([x.abs(), z.abs()]);
         Vec3::new(
-            copy_sign(across * cos, x),
-            if below { -up } else { up },
-            copy_sign(across * sin, z),
+            copy_sign(dir.x, x),
+            if below { -dir.y } else { dir.y },
+            copy_sign(dir.z, z),
         )
+    }
+
+    const FACETS: u32 = 8;
+
+    fn facet<R: Real>(point: ChartPoint<R>) -> u32 {
+        octant(point)
+    }
+
+    /// The formula of the octant goes on, but not around the pole, where all four meet in a point: there it is as on the chart.
+    fn extended<R: Real>(facet: u32, point: ChartPoint<R>) -> Vec3<R> {
+        let Octant { signs, legs } = Octant::of(facet, point);
+        let is_below = facet & BELOW != 0;
+        let legs = if is_below {
+            [R::one() - legs[1], R::one() - legs[0]]
+        } else {
+            legs
+        };
+        // Half a quarter turn beyond the octant, and what is behind the pole.
+        if legs[0].min(legs[1]) * R::two() <= -(legs[0] + legs[1]) {
+            return Self::continued(point);
+        }
+        let dir = in_octant(legs);
+        let y = if is_below { -dir.y } else { dir.y };
+        Vec3::new(dir.x * signs[0], y, dir.z * signs[1])
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
@@ -103,6 +118,22 @@ impl Mapping for OctahedralEqualArea {
         ));
         steps
     }
+}
+
+/// The direction of a place in the octant of three positive signs: its two legs add up to the radius, the second's part of it
+/// is the share of the quarter turn.
+fn in_octant<R: Real>([along_x, along_z]: [R; 2]) -> Vec3<R> {
+    let radius = along_x + along_z;
+    let share = if radius > R::zero() {
+        along_z / radius
+    } else {
+        R::zero()
+    };
+    let (sin, cos) = (share * R::from_f64(0.25)).sin_cos_turns();
+    // sin(colatitude) = r sqrt(2 - r^2), cos(colatitude) = 1 - r^2.
+    let across = radius * (R::two() - radius * radius).max(R::zero()).sqrt();
+    let up = (R::one() - radius) * (R::one() + radius);
+    Vec3::new(across * cos, up, across * sin)
 }
 
 /// Radius sqrt(1 - |y|/n) in [0, 1], computed without the difference, and the share of a quarter turn from |x| to |z|.

@@ -50,6 +50,21 @@ macro_rules! registry {
                 match self { $(Self::$mapping => $module::$mapping::continued(point),)+ }
             }
 
+            /// See [`Mapping::FACETS`].
+            pub fn facets(self) -> u32 {
+                match self { $(Self::$mapping => <$module::$mapping as Mapping>::FACETS,)+ }
+            }
+
+            /// See [`Mapping::facet`].
+            pub fn facet<R: Real>(self, point: ChartPoint<R>) -> u32 {
+                match self { $(Self::$mapping => $module::$mapping::facet(point),)+ }
+            }
+
+            /// See [`Mapping::extended`].
+            pub fn extended<R: Real>(self, facet: u32, point: ChartPoint<R>) -> Vec3<R> {
+                match self { $(Self::$mapping => $module::$mapping::extended(facet, point),)+ }
+            }
+
             /// See [`Mapping::steps`].
             pub fn steps<R: Real + std::fmt::Display>(self, dir: Vec3<R>) -> Vec<Step> {
                 match self { $(Self::$mapping => $module::$mapping::steps(dir),)+ }
@@ -80,6 +95,28 @@ macro_rules! registry {
             #[inline(always)]
             pub fn inverse_lanes(self, chart: u32, columns: [&Lane; 4], row: Line, dirs: &mut DirLanes) {
                 match self { $(Self::$mapping => $module::$mapping::inverse_lanes(chart, columns, row, dirs),)+ }
+            }
+
+            /// See [`Mapping::has_meridians`].
+            pub fn has_meridians(self, chart: u32) -> bool {
+                match self { $(Self::$mapping => $module::$mapping::has_meridians(chart),)+ }
+            }
+
+            /// See [`Mapping::latitude_lanes`].
+            #[inline(always)]
+            pub fn latitude_lanes(self, columns: [&Lane; 4], row: Line, latitudes: &mut AngleLanes) {
+                match self { $(Self::$mapping => $module::$mapping::latitude_lanes(columns, row, latitudes),)+ }
+            }
+
+            /// See [`Mapping::HAS_PARALLELS`].
+            pub fn has_parallels(self) -> bool {
+                match self { $(Self::$mapping => <$module::$mapping as Mapping>::HAS_PARALLELS,)+ }
+            }
+
+            /// See [`Mapping::parallel_lanes`].
+            #[inline(always)]
+            pub fn parallel_lanes(self, latitudes: &AngleLanes, points: &mut PointLanes) {
+                match self { $(Self::$mapping => $module::$mapping::parallel_lanes(latitudes, points),)+ }
             }
 
             /// [`Mapping::forward`] of a slice, with one dispatch; stops at the shorter of the two.

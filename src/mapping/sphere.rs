@@ -58,6 +58,20 @@ impl Mapping for Sphere {
         Vec3::new(twice * p, twice * q, R::one() - twice * w)
     }
 
+    /// Beyond the rim: past +z and up the other side, so that the light between rim and texels lies on a line through +z.
+    fn extended<R: Real>(_: u32, point: ChartPoint<R>) -> Vec3<R> {
+        let beyond = -height_squared(point.u, point.v);
+        if beyond <= R::zero() {
+            return Self::continued(point);
+        }
+        let p = R::two() * point.u - R::one();
+        let q = R::one() - R::two() * point.v;
+        // As high over the disc as inside, but on the other side; (p, q) have the length sqrt(1 + beyond).
+        let beyond = beyond.min(R::one());
+        let across = -R::two() * (beyond * (R::one() - beyond)).sqrt() / p.hypot(q);
+        Vec3::new(across * p, across * q, R::one() - R::two() * beyond)
+    }
+
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
         let (Some(d), Some(point)) = (dir.scaled_direction(), Self::forward(dir)) else {
             return Vec::new();

@@ -17,7 +17,7 @@ pub fn atan2_turns(y: f32, x: f32) -> (f32, f32) {
     let is_steep = ay > ax;
     let (small, large) = if is_steep { (ax, ay) } else { (ay, ax) };
     let divisor = if large > 0.0 { large } else { 1.0 };
-    let angle = atan_unit(small / divisor) * TURNS_PER_RAD;
+    let angle = atan_turns(small / divisor);
     let base = if is_steep { 0.25 } else { 0.0 };
     let rest = if is_steep { -angle } else { angle };
     let base = if x < 0.0 { 0.5 - base } else { base };
@@ -27,6 +27,12 @@ pub fn atan2_turns(y: f32, x: f32) -> (f32, f32) {
     } else {
         (base, rest)
     }
+}
+
+/// Arctangent in turns, |t| <= 1.
+#[inline(always)]
+pub fn atan_turns(t: f32) -> f32 {
+    atan_unit(t) * TURNS_PER_RAD
 }
 
 /// (sin, cos) of an angle in turns, |turns| <= 1/8.

@@ -13,7 +13,7 @@ mod vec3;
 pub use arctan::{
     ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS, atan_unit, sin_cos_turns,
 };
-pub use branchless::{atan2_turns, floor_and_rest, nearest_whole, sin_cos_eighth};
+pub use branchless::{atan_turns, atan2_turns, floor_and_rest, nearest_whole, sin_cos_eighth};
 pub use double_word::DoubleWord;
 pub use dual::Dual;
 pub use real::{Real, Textbook};

@@ -9,6 +9,7 @@
 
 mod convert;
 mod eval;
+mod interrupted;
 mod maps;
 #[cfg(feature = "explorer")]
 mod render;

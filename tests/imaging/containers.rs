@@ -28,7 +28,7 @@ pub fn write(container: &Container, format: Format, zstd: bool) -> Vec<u8> {
 }
 
 /// A container whose samples come from `sample(face, level, index)`.
-fn container(
+pub fn container(
     size: [u32; 2],
     faces: usize,
     stored: Stored,
@@ -63,7 +63,7 @@ fn container(
     }
 }
 
-const KINDS: [(Stored, Transfer); 5] = [
+pub const KINDS: [(Stored, Transfer); 5] = [
     (Stored::U8, Transfer::Srgb),
     (Stored::U8, Transfer::Linear),
     (Stored::Half, Transfer::Linear),

@@ -7,4 +7,5 @@ mod files;
 mod fixtures;
 mod formats;
 mod hostile;
+mod independent;
 mod saved;

@@ -398,6 +398,60 @@ fn files_are_written_whole_or_not_at_all_and_stopped_between_rows() {
     assert!(error.unwrap_err().to_string().ends_with("x.hdr"));
 }
 
+/// Asks for the end once a part of the file has been written.
+fn cancelled_midway(path: &std::path::Path, size: u32, format: Format) -> Result<(), SaveError> {
+    let count = (size * size * 3) as usize;
+    let mut state = 5;
+    let noise = (0..count).map(|_| next(&mut state) as f32 / u64::MAX as f32);
+    let raster = light([size; 2], Channels::Rgb, noise.collect());
+    let progress = Progress::new();
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            while progress.stage() != Stage::Writing || progress.fraction() < 0.02 {
+                std::thread::yield_now();
+            }
+            progress.cancel();
+        });
+        let options = SaveOptions::default();
+        save(
+            path,
+            true,
+            Content::Raster(&raster),
+            format,
+            &options,
+            &progress,
+        )
+    })
+}
+
+#[test]
+fn cancelled_while_it_writes_nothing_is_left() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("map");
+    for format in [Format::Hdr, Format::Exr, Format::Ktx2, Format::Dds] {
+        std::fs::write(&path, "as it was").unwrap();
+        // On a fast machine a small file is whole before anyone can ask.
+        let mut sizes = [256, 512, 1024, 2048].into_iter();
+        let cancelled = sizes.find_map(|size| {
+            let outcome = cancelled_midway(&path, size, format);
+            if outcome.is_ok() {
+                std::fs::write(&path, "as it was").unwrap();
+            }
+            outcome.err()
+        });
+        assert!(
+            matches!(cancelled, Some(SaveError::Cancelled)),
+            "{format:?}: {cancelled:?}"
+        );
+        assert_eq!(std::fs::read(&path).unwrap(), b"as it was", "{format:?}");
+        assert_eq!(
+            std::fs::read_dir(folder.path()).unwrap().count(),
+            1,
+            "{format:?}"
+        );
+    }
+}
+
 #[test]
 fn only_what_no_filter_may_meet_is_replaced() {
     let samples = vec![

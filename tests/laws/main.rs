@@ -11,8 +11,10 @@
 )]
 
 mod area;
+mod beyond;
 mod charts;
 mod inputs;
+mod meridians;
 mod published;
 mod report;
 mod round_trip;
@@ -44,9 +46,11 @@ const LATLONG: Applies = |map| map == MappingId::Latlong;
 /// Those with a seam: a rim that is one direction, or that bounds the half that is covered, has no other side.
 const WITH_SEAMS: Applies =
     |map| map.info().chart_count() > 1 || map.info().domain == Domain::Square;
+/// Those whose charts have something beyond their border.
+const GOES_ON: Applies = |map| !beyond::ends_at_its_rim(map);
 const WITH_AREA_CLAIMS: Applies = |map| map.info().claims.equal_area || map.info().claims.conformal;
 
-const LAWS: [Law; 14] = [
+const LAWS: [Law; 15] = [
     Law {
         name: "direction -> uv -> direction",
         applies: ALL,
@@ -155,6 +159,18 @@ const LAWS: [Law; 14] = [
         applies: WITH_SEAMS,
         check: seams::neighbours,
         controls: &[(Fault::SwapUv, WITH_SEAMS)],
+    },
+    Law {
+        name: "beyond the border",
+        applies: ALL,
+        check: beyond::continued,
+        controls: &[
+            (Fault::Shifted, ALL),
+            (Fault::Long, ALL),
+            (Fault::Jumping, ALL),
+            (Fault::Mirror, GOES_ON),
+            (Fault::Clamped, GOES_ON),
+        ],
     },
 ];
 

@@ -36,6 +36,12 @@ pub enum Fault {
     Flat,
     /// One chart, or half of it, is divided differently.
     OneSided,
+    /// The continued inverse is a millionth of a chart beside the inverse.
+    Shifted,
+    /// Beyond the border it leans by a hundredth.
+    Jumping,
+    /// Beyond the border it repeats the border.
+    Clamped,
 }
 
 /// A mapping, perhaps broken, and how many inputs to spend on it.
@@ -120,6 +126,36 @@ impl Subject {
             Some(Fault::Long) => dir.map(|d| d * R::from_f64(1.001)),
             _ => dir,
         }
+    }
+
+    pub fn continued<R: Real>(&self, point: ChartPoint<R>) -> Vec3<R> {
+        let number = R::from_f64;
+        let info = self.info();
+        let is_beyond =
+            !(point.is_on(info.chart_count()) && info.domain.contains(point.u, point.v));
+        match self.fault {
+            Some(Fault::Shifted) => {
+                let shifted = ChartPoint::new(point.chart, point.u + number(1e-6), point.v);
+                self.map.continued(shifted)
+            }
+            Some(Fault::Long) => self.map.continued(point) * number(1.001),
+            Some(Fault::Jumping) if is_beyond => {
+                let lean = Vec3::from_f64([0.006, 0.007, 0.005]);
+                (self.map.continued(point) + lean).normalized()
+            }
+            Some(Fault::Clamped) if is_beyond => self.map.continued(self.on_chart(point)),
+            _ => self.map.continued(point),
+        }
+    }
+
+    /// The nearest point of the chart.
+    fn on_chart<R: Real>(&self, point: ChartPoint<R>) -> ChartPoint<R> {
+        if self.info().domain == Domain::Square {
+            return point.clamped();
+        }
+        let (p, q) = (point.u - R::half(), point.v - R::half());
+        let shrink = R::half() / p.hypot(q).max(R::half());
+        ChartPoint::new(point.chart, R::half() + p * shrink, R::half() + q * shrink)
     }
 
     /// The sound mapping's inverse in f64. A rim point rounded to f32 may lie outside of the disc by more than f64 allows:

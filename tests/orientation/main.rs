@@ -6,4 +6,8 @@ mod detecting;
 mod opening;
 mod scenes;
 mod seams;
+mod shader_code;
 mod solving;
+mod there_and_back;
+#[path = "../wgsl/mod.rs"]
+mod wgsl;

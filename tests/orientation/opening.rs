@@ -6,13 +6,13 @@ use sixfold::imaging::load::{Format, LoadProblem};
 use sixfold::imaging::save::{Content, SaveOptions, format_of_path, save};
 use sixfold::imaging::srgb::linear_from_srgb8;
 use sixfold::imaging::{
-    Container, Environment, EnvmapKind, FACE_COLORS, Level, MapFile, OpenHints, OpenedMap,
-    Pictures, Preview, Progress, Raster, Samples, Siting, Stored, Transfer, open_map,
+    Channels, Container, Environment, EnvmapKind, FACE_COLORS, Level, MapFile, OpenHints,
+    OpenedMap, Pictures, Preview, Progress, Raster, Samples, Siting, Stored, Transfer, open_map,
 };
 use sixfold::mapping::{Arrangement, Frame, Layout, MappingId};
 use sixfold::math::Vec3;
 
-use crate::scenes::{Laid, photograph};
+use crate::scenes::{Laid, in_8_bits, photograph};
 
 fn write(path: &Path, content: Content, envmap: Option<EnvmapKind>) {
     let options = SaveOptions {
@@ -69,6 +69,70 @@ fn every_mapping_opens_in_every_layout_when_it_is_said() {
             }
         }
     }
+}
+
+/// Two discs are told by their empty corners, whatever the format has made of their texels.
+#[test]
+fn two_discs_open_without_hints_from_every_format() {
+    let folder = tempfile::tempdir().unwrap();
+    for layout in [Layout::Pair, Layout::PairColumn] {
+        let laid = Laid::new(MappingId::Paraboloid, layout, 64);
+        let light = laid.draw(&laid.shape(), photograph).remove(0);
+        let codes = in_8_bits(&light);
+        for (name, raster) in [
+            ("a.exr", &light),
+            ("a.hdr", &light),
+            ("a.png", &codes),
+            ("a.jpg", &codes),
+        ] {
+            let path = folder.path().join(name);
+            write(&path, Content::Raster(raster), None);
+            let opened = open(&path, &OpenHints::default()).unwrap();
+            let found = (opened.chosen.mapping, opened.chosen.layout);
+            assert_eq!(found, (MappingId::Paraboloid, layout), "{name}");
+            // Right way round: the middle of the second disc looks back.
+            let exact = photograph(Vec3::new(0.0, 0.0, -1.0));
+            let shown = opened.map.light(1, [32, 32]);
+            let off = (0..3).map(|c| (shown[c] - exact[c]).abs());
+            assert!(
+                off.fold(0.0, f32::max) < 0.05,
+                "{name}: {shown:?}, {exact:?}"
+            );
+        }
+        // Control: with light in all corners two squares are no discs.
+        let path = folder.path().join("a.exr");
+        write(&path, Content::Raster(&with_full_corners(&light)), None);
+        let opened = open(&path, &OpenHints::default());
+        assert!(opened.is_err() || opened.unwrap().chosen.mapping != MappingId::Paraboloid);
+    }
+}
+
+/// The same picture with something in the corners of its squares.
+fn with_full_corners(raster: &Raster) -> Raster {
+    let [width, height] = raster.size();
+    let side = width.min(height);
+    let Samples::F32(mut samples) = raster.samples().clone() else {
+        panic!("floats")
+    };
+    for (i, sample) in samples.iter_mut().enumerate() {
+        let at = i as u32 / 3;
+        let place =
+            [at % width % side, at / width % side].map(|c| f64::from(c) / f64::from(side) - 0.5);
+        if place[0].hypot(place[1]) > 0.5 {
+            *sample = photograph(Vec3::new(
+                place[0] * 5.0,
+                place[1] * 5.0,
+                f64::from(at) * 0.01,
+            ))[i % 3];
+        }
+    }
+    Raster::new(
+        raster.size(),
+        Channels::Rgb,
+        Transfer::Linear,
+        Samples::F32(samples),
+    )
+    .unwrap()
 }
 
 #[test]

@@ -18,7 +18,7 @@ fn solved((shape, pictures): &(MapShape, Vec<Raster>)) -> Solution {
 }
 
 /// Small numbers that look random, always the same.
-struct Dice(u64);
+pub struct Dice(pub u64);
 
 impl Dice {
     fn below(&mut self, count: u64) -> u64 {
@@ -29,7 +29,7 @@ impl Dice {
         (self.0 >> 33) % count
     }
 
-    fn arrangement(&mut self) -> Arrangement {
+    pub fn arrangement(&mut self) -> Arrangement {
         let mut charts = [0, 1, 2, 3, 4, 5];
         for i in (1..6).rev() {
             charts.swap(i, self.below(i as u64 + 1) as usize);

@@ -9,8 +9,10 @@
     reason = "tests say what they expect by unwrapping, and what they saw by printing"
 )]
 
+mod analytic;
 mod constants;
 mod fixtures;
+mod opacity;
 mod parts;
 mod quality;
 mod registration;

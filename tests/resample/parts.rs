@@ -185,12 +185,12 @@ fn there_and_back_loses_little() {
         }
     }
     println!("{table}");
-    budgets.at_least_db("least through whole spheres", least, 42.0);
+    budgets.at_least_db("least through whole spheres", least, 50.0);
     budgets.at_least_db("the same, without rims that are points", regular, 67.0);
     let map = map_of(&shape(MappingId::Cube, [48, 48]), smooth);
     let other = map_of(map.shape(), |d| smooth(d).map(|c| c + 0.1));
     let broken = compare(&map, &other).unwrap().psnr_db;
-    budgets.must_break_db("a tenth lighter", broken, 42.0);
+    budgets.must_break_db("a tenth lighter", broken, 50.0);
     budgets.check();
 }
 

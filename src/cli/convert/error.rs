@@ -54,6 +54,9 @@ pub(in crate::cli) enum ConvertError {
     /// There is no room.
     #[error("there is no memory for {0} bytes; choose a smaller size or close something")]
     OutOfMemory(u64),
+    /// The user has asked it to stop.
+    #[error("interrupted; no file is left half-written")]
+    Interrupted,
     /// A thread ended before its time.
     #[error("a thread of the conversion broke off; please report what you converted")]
     Broken,

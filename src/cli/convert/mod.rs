@@ -2,6 +2,7 @@
 
 mod bar;
 mod error;
+mod interrupt;
 mod names;
 mod options;
 mod pipe;
@@ -29,27 +30,44 @@ use work::{Converter, Files};
 /// Converts what the options say.
 pub(super) fn run(options: &ConvertOptions) -> Result<(), ConvertError> {
     let task = Task::new(options)?;
+    if let Input::Raw {
+        frames,
+        mapping,
+        hints,
+    } = &task.input
+    {
+        // A pipe leaves nothing behind, and may wait for ever for its next frame: signals end it as they end any program.
+        return pipe::run(&task, *frames, *mapping, hints);
+    }
+    let progress = Arc::new(Progress::new());
+    interrupt::cancels(&progress);
+    let outcome = files(&task, &progress);
+    match outcome {
+        Err(_) if progress.is_cancelled() => Err(ConvertError::Interrupted),
+        outcome => outcome,
+    }
+}
+
+/// Converts what comes from files or is built in.
+fn files(task: &Task, progress: &Arc<Progress>) -> Result<(), ConvertError> {
     match (&task.input, &task.output) {
-        (
-            Input::Raw {
-                frames,
-                mapping,
-                hints,
-            },
-            _,
-        ) => pipe::run(&task, *frames, *mapping, hints),
         (Input::Files { name, hints }, Output::Files(files)) if name.has_number() => {
-            film(&task, name, *hints, files)
+            film(task, name, *hints, files, progress)
         }
         (Input::Files { name, hints }, Output::Files(files)) => {
             let path = name.path().to_owned();
-            single(&task, files, |progress| source::open(path, hints, progress))
+            single(task, files, progress, || {
+                source::open(path, hints, progress)
+            })
         }
-        (Input::BuiltIn(environment), Output::Files(files)) => single(&task, files, |progress| {
-            source::built_in(environment, task.rows_of_latlong(), progress)
-        }),
-        (Input::Files { name, hints }, _) => inspect(name, hints),
+        (Input::BuiltIn(environment), Output::Files(files)) => {
+            single(task, files, progress, || {
+                source::built_in(environment, task.rows_of_latlong(), progress)
+            })
+        }
+        (Input::Files { name, hints }, _) => inspect(name, hints, progress),
         (Input::BuiltIn(environment), _) => inspect_built_in(environment),
+        (Input::Raw { .. }, _) => Err(ConvertError::Broken),
     }
 }
 
@@ -57,14 +75,14 @@ pub(super) fn run(options: &ConvertOptions) -> Result<(), ConvertError> {
 fn single(
     task: &Task,
     files_out: &FilesOut,
-    read: impl FnOnce(&Progress) -> Result<Source, ConvertError>,
+    progress: &Arc<Progress>,
+    read: impl FnOnce() -> Result<Source, ConvertError>,
 ) -> Result<(), ConvertError> {
-    let progress = Arc::new(Progress::new());
-    let bar = Bar::watch(&progress);
+    let bar = Bar::watch(progress);
     task.check_free(files_out, 0)?;
     let mut converter = Converter::new(task);
     let start = Instant::now();
-    let source = read(&progress)?;
+    let source = read()?;
     converter.times.read = start.elapsed();
     tell(&source.notes);
     let files = files_of(
@@ -73,14 +91,14 @@ fn single(
         0,
     );
     files_out.check(&files.paths)?;
-    let result = converter.convert(&source.map, None, &progress)?;
+    let result = converter.convert(&source.map, None, progress)?;
     let from = source.map.shape().mapping;
     let shape = result.shape().clone();
     let bytes = source.map.bytes() + result.bytes();
     // Not needed any more, and a format may need room to compress.
     drop(source);
     let start = Instant::now();
-    drop(files_out.write(result, &files, task.mips(), &progress)?);
+    drop(files_out.write(result, &files, task.mips(), progress)?);
     converter.times.write = start.elapsed();
     drop(bar);
     let report = converter.report.as_ref().ok_or(ConvertError::Broken)?;
@@ -110,13 +128,13 @@ fn film(
     name: &Name,
     hints: OpenHints,
     files_out: &FilesOut,
+    progress: &Arc<Progress>,
 ) -> Result<(), ConvertError> {
     let numbers = source::frames(name)?;
     let count = numbers.len();
     for number in &numbers {
         task.check_free(files_out, *number)?;
     }
-    let progress = Arc::new(Progress::new());
     let times = Arc::new([Mutex::new(Duration::ZERO), Mutex::new(Duration::ZERO)]);
     let add = |times: &[Mutex<Duration>; 2], which: usize, start: Instant| {
         if let Ok(mut time) = times[which].lock() {
@@ -143,7 +161,7 @@ fn film(
             *number,
         );
         files_out.check(&files.paths)?;
-        let map = converter.convert(&source.map, old.and_then(|old| old.map), &progress)?;
+        let map = converter.convert(&source.map, old.and_then(|old| old.map), progress)?;
         if last.is_none() {
             tell(&source.notes);
         }
@@ -216,8 +234,8 @@ fn tell(notes: &[String]) {
 }
 
 /// Says what a map seems to be.
-fn inspect(name: &Name, hints: &OpenHints) -> Result<(), ConvertError> {
-    let opened = source::look(name.path().to_owned(), hints, &Progress::new())?;
+fn inspect(name: &Name, hints: &OpenHints, progress: &Progress) -> Result<(), ConvertError> {
+    let opened = source::look(name.path().to_owned(), hints, progress)?;
     super::print(&opened).map_err(ConvertError::Write)
 }
 

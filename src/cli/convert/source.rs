@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::error::ConvertError;
 use super::names::Name;
 use crate::imaging::detect::Proposal;
-use crate::imaging::solver::solve;
+use crate::imaging::solver::{LatlongWay, ShaderLanguage, SkyHint, lookup_code, solve};
 use crate::imaging::{Environment, EnvironmentMap, OpenHints, Progress, Stored, open_map};
 
 /// A map, and how its file stored it.
@@ -96,7 +96,20 @@ pub(super) fn look(
     if let Some(solution) = solve(opened.map.shape(), opened.map.rasters()) {
         text.push_str(&format!("{}\n", solution.sentence()));
         if solution.is_certain {
-            text.push_str(&format!("{}\n", solution.option()));
+            text.push_str(&format!(
+                "{}\n{}\n",
+                solution.mirrored_sentence(),
+                solution.option()
+            ));
+            text.push_str(&lookup_code(&solution.arrangement, ShaderLanguage::Wgsl));
+        }
+    }
+    if let Some(hint) = SkyHint::of(opened.map.shape(), opened.map.rasters()) {
+        text.push_str(&format!("{}\n", hint.sentence()));
+        if hints.frame.is_none() {
+            text.push_str("which way round it lies only its program tells:\n");
+            let ways = LatlongWay::all();
+            text.extend(ways.iter().map(|way| format!("{}\n", way.sentence())));
         }
     }
     text.extend(opened.notes.iter().map(|note| format!("{note}\n")));

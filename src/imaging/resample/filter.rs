@@ -146,6 +146,11 @@ impl Mix {
         self.divided(1.0)
     }
 
+    /// Of all that has been added with opacity.
+    pub const fn weight(&self) -> f32 {
+        self.weight
+    }
+
     /// The mean.
     pub fn mean(self) -> Pixel {
         let weight = self.weight;

@@ -1,12 +1,7 @@
 //! Bilinear lookups of many texels at once, from bytes to bytes or from floats to floats: places, light and samples in one.
 //!
-//! Both neighbours of a row come with one load, and all four taps are mixed without asking whether they lie on the chart. Texels
-//! whose taps do not are found again one by one with the gutter.
-
-#![expect(
-    clippy::needless_range_loop,
-    reason = "a lane is an index into several lists at once"
-)]
+//! All four taps are mixed without asking whether they lie on the chart. Texels whose taps do not are found again one by one with
+//! the gutter.
 
 use pulp::NullaryFnOnce;
 
@@ -14,8 +9,9 @@ use super::encode::Encoder;
 use super::filter::Sampler;
 use super::lane_places::{LanePlaces, LaneScratch, PlaceLanes};
 use super::lookups::Lookups;
+use super::prefetch::prefetch;
 use super::stored::Stored;
-use super::strips::{Kernel, Run, Scratch};
+use super::strips::{Kernel, Patch, Run, Scratch};
 use super::texels::{Pixel, Strides};
 use crate::imaging::EnvironmentMap;
 use crate::mapping::LANES;
@@ -24,8 +20,17 @@ use crate::math::nearest_whole;
 /// Samples a pixel: opacity goes the general way.
 const RGB: usize = 3;
 
-/// Samples that a load takes: two neighbours, and two more that fill the register.
-const LOAD: usize = 8;
+/// Samples of a tap: a pixel, and one more that fills a register.
+const TAP: usize = RGB + 1;
+
+/// Samples of two neighbours.
+const LOAD: usize = RGB + TAP;
+
+/// What comes from memory at once, on all processors that are common.
+const CACHE_LINE_BYTES: usize = 64;
+
+/// How many rows beside its own a block asks for: fewer come late, more are forgotten again. Of 2, 4, 8, 12 and 16 the best.
+const ROWS_AHEAD: usize = 4;
 
 /// The charts of a source, upright, as the loop finds them: more than any mapping has, so that an index is masked, not checked.
 const MOST_CHARTS: usize = 16;
@@ -39,23 +44,51 @@ struct Chart<'a, S> {
     end: u32,
 }
 
-/// Hands over the samples of both rows from `at` on.
-#[inline(always)]
-fn take<S, M: Mixing<S>>(
-    mixing: &mut M,
-    chart: &Chart<'_, S>,
-    at: u32,
-    k: usize,
-    places: &PlaceLanes,
-) {
-    let at = at as usize;
-    let first = chart.samples.get(at..at + LOAD);
-    let below = at + chart.down as usize;
-    let second = chart.samples.get(below..below + LOAD);
-    if let (Some(first), Some(second)) = (first, second)
-        && let (Some(first), Some(second)) = (first.first_chunk(), second.first_chunk())
-    {
-        mixing.take(k, first, second, places.right[k], places.below[k]);
+/// The places of [`LANES`] texels, found in the source.
+#[repr(align(64))]
+struct Block {
+    places: PlaceLanes,
+    /// The chart of all places, when there is but one.
+    chart: Option<u32>,
+    /// Where the samples of each begin; 0 where its taps leave the chart.
+    starts: [u32; LANES],
+    /// 1 for those whose taps do.
+    off: [u32; LANES],
+    has_off: bool,
+}
+
+impl Default for Block {
+    fn default() -> Self {
+        Self {
+            places: PlaceLanes::default(),
+            chart: None,
+            starts: [0; LANES],
+            off: [0; LANES],
+            has_off: false,
+        }
+    }
+}
+
+impl<'a, S> Chart<'a, S> {
+    /// Hands over the samples of the four taps of a place.
+    ///
+    /// Both slices are equally long, so that one comparison serves both, for the compiler too where it sees how they were made.
+    #[inline(always)]
+    fn take<M: Mixing<S>>([above, under]: [&'a [S]; 2], mixing: &mut M, block: &Block, k: usize) {
+        let (at, places) = (block.starts[k] as usize, &block.places);
+        if let (Some(above), Some(under)) = (above.get(at..at + LOAD), under.get(at..at + LOAD))
+            && let (Some(a), Some(b)) = (above.first_chunk(), above.last_chunk())
+            && let (Some(c), Some(d)) = (under.first_chunk(), under.last_chunk())
+        {
+            mixing.take(k, [a, b, c, d], places.right[k], places.below[k]);
+        }
+    }
+
+    /// The samples, and those from a row below on.
+    #[inline(always)]
+    fn rows(&self) -> [&'a [S]; 2] {
+        let under = self.samples.get(self.down as usize..).unwrap_or_default();
+        [&self.samples[..under.len()], under]
     }
 }
 
@@ -112,36 +145,54 @@ impl<'a, S: Stored> Fused<'a, S> {
         })
     }
 
-    /// Hands the samples of both rows at each place to `mixing`. Returns whether any place has taps off its chart; those are
-    /// marked.
+    /// Finds where the samples of a block's places begin, and asks for the memory that the rows beside it will need.
     #[inline(always)]
-    fn load<M: Mixing<S>>(
-        &self,
-        places: &PlaceLanes,
-        mixing: &mut M,
-        is_off: &mut [bool; LANES],
-    ) -> bool {
+    fn locate(&self, block: &mut Block) {
+        let places = &block.places;
         let first = places.chart[0];
         let mut difference = 0;
         for chart in &places.chart {
             difference |= chart ^ first;
         }
-        if difference == 0 {
-            let chart = &self.charts[first as usize % MOST_CHARTS];
-            return self.load_from(chart, places, mixing, is_off);
-        }
-        // Charts meet in few blocks: each is asked for its lanes, and a lane counts where its own chart has it.
-        let mut any = false;
-        for k in 0..LANES {
-            let chart = &self.charts[places.chart[k] as usize % MOST_CHARTS];
-            let (at, is_on) = self.at(chart, places.column[k], places.row[k]);
-            is_off[k] = !is_on;
-            any |= !is_on;
-            if is_on {
-                take(mixing, chart, at, k, places);
+        block.chart = (difference == 0).then_some(first);
+        let mut any = 0;
+        if let Some(chart) = block.chart {
+            let chart = self.chart(chart);
+            for k in 0..LANES {
+                let (at, is_on) = self.at(chart, places.column[k], places.row[k]);
+                block.starts[k] = at;
+                block.off[k] = u32::from(!is_on);
+                any |= block.off[k];
+            }
+        } else {
+            // Charts meet in few blocks.
+            for k in 0..LANES {
+                let chart = self.chart(places.chart[k]);
+                let (at, is_on) = self.at(chart, places.column[k], places.row[k]);
+                block.starts[k] = at;
+                block.off[k] = u32::from(!is_on);
+                any |= block.off[k];
             }
         }
-        any
+        block.has_off = any != 0;
+        // Neighbours may lie in rows of their own: each fourth stands for those that share a line with it.
+        for k in (0..LANES).step_by(4) {
+            let chart = self.chart(places.chart[k]);
+            let (at, down) = (block.starts[k] as usize, chart.down as usize);
+            prefetch(chart.samples, at);
+            prefetch(chart.samples, at.wrapping_add(down));
+        }
+        for k in (0..LANES).step_by(CACHE_LINE_BYTES / (RGB * size_of::<S>())) {
+            let chart = self.chart(places.chart[k]);
+            let (at, ahead) = (block.starts[k] as usize, ROWS_AHEAD * chart.down as usize);
+            prefetch(chart.samples, at.wrapping_add(ahead));
+            prefetch(chart.samples, at.wrapping_sub(ahead));
+        }
+    }
+
+    #[inline(always)]
+    fn chart(&self, index: u32) -> &Chart<'a, S> {
+        &self.charts[index as usize % MOST_CHARTS]
     }
 
     /// Where the samples of a place begin; 0 where its taps leave the chart.
@@ -158,48 +209,31 @@ impl<'a, S: Stored> Fused<'a, S> {
         (if is_on { at } else { 0 }, is_on)
     }
 
+    /// Hands the samples at a block's places to `mixing`.
     #[inline(always)]
-    fn load_from<M: Mixing<S>>(
-        &self,
-        chart: &Chart<'a, S>,
-        places: &PlaceLanes,
-        mixing: &mut M,
-        is_off: &mut [bool; LANES],
-    ) -> bool {
-        let mut starts = [0_u32; LANES];
-        let mut off = [0_u32; LANES];
-        let mut any = 0;
-        for k in 0..LANES {
-            let (at, is_on) = self.at(chart, places.column[k], places.row[k]);
-            starts[k] = at;
-            off[k] = u32::from(!is_on);
-            any |= off[k];
+    fn load<M: Mixing<S>>(&self, block: &Block, mixing: &mut M) {
+        if let Some(chart) = block.chart {
+            let rows = self.chart(chart).rows();
+            for k in 0..LANES {
+                Chart::take(rows, mixing, block, k);
+            }
+        } else {
+            for k in 0..LANES {
+                let rows = self.chart(block.places.chart[k]).rows();
+                Chart::take(rows, mixing, block, k);
+            }
         }
-        for k in 0..LANES {
-            take(mixing, chart, starts[k], k, places);
-        }
-        if any != 0 {
-            *is_off = off.map(|off| off != 0);
-        }
-        any != 0
     }
 
     /// Finds the marked texels again, one by one.
     #[cold]
     #[inline(never)]
-    fn mend(
-        &self,
-        run: &Run,
-        first: usize,
-        scratch: &LaneScratch,
-        is_off: &[bool; LANES],
-        out: &mut [S],
-    ) {
-        let places = &scratch.places;
+    fn mend(&self, run: &Run, block: &Block, out: &mut [S]) {
+        let places = &block.places;
         let mut lookups = Lookups::default();
         lookups.resize(1);
         for (k, out) in out.chunks_exact_mut(RGB).enumerate() {
-            if !is_off[k] {
+            if block.off[k] == 0 {
                 continue;
             }
             lookups.chart[0] = places.chart[k];
@@ -207,7 +241,7 @@ impl<'a, S: Stored> Fused<'a, S> {
             (lookups.right[0], lookups.below[0]) = (places.right[k], places.below[k]);
             let mut light: [Pixel; 1] = [[0.0; 4]];
             self.sampler.sample(&lookups, &mut light);
-            let column = run.columns.start + (first + k) as u32;
+            let column = run.columns.start + k as u32;
             let texel = Run {
                 columns: column..column + 1,
                 ..run.clone()
@@ -217,138 +251,182 @@ impl<'a, S: Stored> Fused<'a, S> {
     }
 }
 
-/// One run, compiled for a set of instructions.
-struct Rows<'k, 'a, 'o, S, M> {
+/// A patch, compiled for a set of instructions.
+struct Work<'k, 'a, 'o, S, M> {
     kernel: &'k Fused<'a, S>,
-    run: &'k Run,
+    patch: &'k Patch,
     out: &'o mut [S],
     mixing: M,
 }
 
 /// What becomes of the samples at the places of a block.
 trait Mixing<S> {
-    /// The samples of the texel at a place and of those to its right, and of the row below.
-    fn take(&mut self, k: usize, above: &[S; LOAD], under: &[S; LOAD], right: f32, below: f32);
+    /// The texel at a place, the one to its right, and those of the row below; each with one sample more.
+    fn take(&mut self, k: usize, taps: [&[S; TAP]; 4], right: f32, below: f32);
 
     /// The block's samples, pixel after pixel; what was not taken is left over from before.
-    fn finish(&mut self, places: &PlaceLanes) -> &[S];
+    fn finish(&mut self, places: &PlaceLanes) -> &[S; LANES * RGB];
 }
 
-impl<S: Stored, M: Mixing<S>> NullaryFnOnce for Rows<'_, '_, '_, S, M> {
+impl<S: Stored, M: Mixing<S>> NullaryFnOnce for Work<'_, '_, '_, S, M> {
     type Output = ();
 
     #[inline(always)]
     fn call(mut self) {
-        let (kernel, run) = (self.kernel, self.run);
+        let (kernel, patch) = (self.kernel, self.patch);
         let mut scratch = LaneScratch::default();
-        let mut is_off = [false; LANES];
-        for (index, out) in self.out.chunks_mut(LANES * RGB).enumerate() {
-            let first = index * LANES;
-            let column = run.columns.start + first as u32;
-            kernel
-                .places
-                .fill_lanes(run.chart, run.row, column, &mut scratch);
-            let any = kernel.load(&scratch.places, &mut self.mixing, &mut is_off);
-            let mixed = self.mixing.finish(&scratch.places);
-            out.copy_from_slice(&mixed[..out.len()]);
-            if any {
-                kernel.mend(run, first, &scratch, &is_off, out);
+        let [mut now, mut next] = [&mut Block::default(), &mut Block::default()];
+        // Block after block down the rows: what one row needs of the source, the next needs still, and it is a short way off.
+        let rows = patch.rows.len();
+        let count = rows * patch.columns.len().div_ceil(LANES);
+        for index in 0..=count {
+            // One block ahead, so that its memory is asked for early.
+            if index < count {
+                let column = patch.columns.start + (index / rows * LANES) as u32;
+                let row = patch.rows.start + (index % rows) as u32;
+                let (chart, places) = (patch.chart, &mut next.places);
+                kernel
+                    .places
+                    .fill_lanes(chart, row, column, &mut scratch, places);
+                kernel.locate(next);
             }
+            if let Some(index) = index.checked_sub(1) {
+                kernel.load(now, &mut self.mixing);
+                let mixed = self.mixing.finish(&now.places);
+                let before = index / rows * LANES * RGB;
+                let at = patch.at(index % rows) + before;
+                let samples = mixed.len().min(patch.samples - before);
+                let out = &mut self.out[at..at + samples];
+                out.copy_from_slice(&mixed[..samples]);
+                if now.has_off {
+                    let run = Run {
+                        chart: patch.chart,
+                        row: patch.rows.start + (index % rows) as u32,
+                        columns: patch.columns.start + (index / rows * LANES) as u32
+                            ..patch.columns.end,
+                    };
+                    kernel.mend(&run, now, out);
+                }
+            }
+            std::mem::swap(&mut now, &mut next);
         }
     }
 }
 
 /// Bytes: mixed as floats, rounded to the nearest; off by half a step and 1e-4.
+#[repr(align(64))]
 struct Bytes {
-    above: [u64; LANES],
-    under: [u64; LANES],
+    /// The four taps' pixels, and a byte more in each.
+    taps: [[u32; LANES]; 4],
+    packed: [u32; LANES],
     mixed: [u8; LANES * RGB],
+}
+
+impl Bytes {
+    const fn new() -> Self {
+        Self {
+            taps: [[0; LANES]; 4],
+            packed: [0; LANES],
+            mixed: [0; LANES * RGB],
+        }
+    }
 }
 
 impl Mixing<u8> for Bytes {
     #[inline(always)]
-    fn take(&mut self, k: usize, above: &[u8; LOAD], under: &[u8; LOAD], _: f32, _: f32) {
-        self.above[k] = u64::from_le_bytes(*above);
-        self.under[k] = u64::from_le_bytes(*under);
+    fn take(&mut self, k: usize, taps: [&[u8; TAP]; 4], _: f32, _: f32) {
+        for (lane, tap) in self.taps.iter_mut().zip(taps) {
+            lane[k] = u32::from_le_bytes(*tap);
+        }
     }
 
     #[inline(always)]
-    fn finish(&mut self, places: &PlaceLanes) -> &[u8] {
-        let byte = |word: u64, index: usize| ((word >> (8 * index)) as u32 & 255) as i32 as f32;
-        let mut packed = [0_u32; LANES];
+    fn finish(&mut self, places: &PlaceLanes) -> &[u8; LANES * RGB] {
+        let byte = |tap: &[u32; LANES], k: usize, channel: usize| {
+            (tap[k] >> (8 * channel) & 255) as i32 as f32
+        };
+        let [first, right, under, last] = &self.taps;
         for k in 0..LANES {
             let mut pixel = 0;
             for channel in 0..RGB {
-                let next = channel + RGB;
-                let (a, b) = (byte(self.above[k], channel), byte(self.above[k], next));
-                let (c, d) = (byte(self.under[k], channel), byte(self.under[k], next));
+                let (a, b) = (byte(first, k, channel), byte(right, k, channel));
+                let (c, d) = (byte(under, k, channel), byte(last, k, channel));
                 let (a, c) = (a + (b - a) * places.right[k], c + (d - c) * places.right[k]);
                 let mixed = a + (c - a) * places.below[k];
                 pixel |= (nearest_whole(mixed) as u32) << (8 * channel);
             }
-            packed[k] = pixel;
+            self.packed[k] = pixel;
         }
         // Four bytes at once, of which the next pixel writes over the fourth.
         for k in 0..LANES - 1 {
-            self.mixed[RGB * k..RGB * k + 4].copy_from_slice(&packed[k].to_le_bytes());
+            self.mixed[RGB * k..RGB * k + 4].copy_from_slice(&self.packed[k].to_le_bytes());
         }
-        let last = packed[LANES - 1].to_le_bytes();
+        let last = self.packed[LANES - 1].to_le_bytes();
         self.mixed[RGB * (LANES - 1)..].copy_from_slice(&last[..RGB]);
         &self.mixed
     }
 }
 
 /// Floats.
+#[repr(align(64))]
 struct Floats {
     /// With room for the fourth number of the last pixel.
     mixed: [f32; LANES * RGB + 1],
 }
 
+impl Floats {
+    const fn new() -> Self {
+        Self {
+            mixed: [0.0; LANES * RGB + 1],
+        }
+    }
+}
+
 impl Mixing<f32> for Floats {
     #[inline(always)]
-    fn take(&mut self, k: usize, above: &[f32; LOAD], under: &[f32; LOAD], right: f32, below: f32) {
-        let mut column = [0.0; LOAD];
-        for c in 0..LOAD {
-            column[c] = above[c] + (under[c] - above[c]) * below;
-        }
+    fn take(&mut self, k: usize, [a, b, c, d]: [&[f32; TAP]; 4], right: f32, below: f32) {
         // Four numbers at once, of which the next pixel writes over the fourth.
-        let mut pixel = [0.0; RGB + 1];
-        for c in 0..RGB + 1 {
-            pixel[c] = column[c] + (column[c + RGB] - column[c]) * right;
+        let mut pixel = [0.0; TAP];
+        for i in 0..TAP {
+            let above = a[i] + (b[i] - a[i]) * right;
+            let under = c[i] + (d[i] - c[i]) * right;
+            pixel[i] = above + (under - above) * below;
         }
         self.mixed[RGB * k..RGB * k + 4].copy_from_slice(&pixel);
     }
 
     #[inline(always)]
-    fn finish(&mut self, _: &PlaceLanes) -> &[f32] {
-        &self.mixed
+    fn finish(&mut self, _: &PlaceLanes) -> &[f32; LANES * RGB] {
+        self.mixed.first_chunk().unwrap_or(&[0.0; LANES * RGB])
     }
 }
 
-impl Kernel<u8> for Fused<'_, u8> {
-    fn write(&self, run: &Run, _: &mut Scratch, out: &mut [u8]) {
-        self.places.isa.run(Rows {
-            kernel: self,
-            run,
-            out,
-            mixing: Bytes {
-                above: [0; LANES],
-                under: [0; LANES],
-                mixed: [0; LANES * RGB],
-            },
-        });
-    }
-}
+/// All but the mixing, which depends on the type.
+macro_rules! kernel {
+    ($type:ty, $mixing:ident) => {
+        impl Kernel<$type> for Fused<'_, $type> {
+            fn write(&self, run: &Run, scratch: &mut Scratch, out: &mut [$type]) {
+                let row = Patch {
+                    chart: run.chart,
+                    rows: run.row..run.row + 1,
+                    columns: run.columns.clone(),
+                    samples: out.len(),
+                    first: 0,
+                    down: 0,
+                };
+                self.write_patch(&row, scratch, out);
+            }
 
-impl Kernel<f32> for Fused<'_, f32> {
-    fn write(&self, run: &Run, _: &mut Scratch, out: &mut [f32]) {
-        self.places.isa.run(Rows {
-            kernel: self,
-            run,
-            out,
-            mixing: Floats {
-                mixed: [0.0; LANES * RGB + 1],
-            },
-        });
-    }
+            fn write_patch(&self, patch: &Patch, _: &mut Scratch, out: &mut [$type]) {
+                self.places.isa.run(Work {
+                    kernel: self,
+                    patch,
+                    out,
+                    mixing: $mixing::new(),
+                });
+            }
+        }
+    };
 }
+kernel!(u8, Bytes);
+kernel!(f32, Floats);

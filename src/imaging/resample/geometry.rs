@@ -15,10 +15,10 @@ pub(super) struct Geometry {
     pub turn: [[f64; 3]; 3],
 }
 
-/// A place in the source: chart, and texels to the right and down from the middle of texel (0, 0).
+/// A place in the source: its part (see [`Grid::part`]), and texels to the right and down from the middle of texel (0, 0).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
-    pub chart: u32,
+    pub part: u32,
     pub at: [f64; 2],
 }
 
@@ -37,6 +37,12 @@ impl Geometry {
             source: Grid::of(source),
             turn,
         }
+    }
+
+    /// Takes charts as wholes: to the nearest texel no seam and no bend matters.
+    pub const fn do_not_divide(&mut self) {
+        self.source.facets = 1;
+        self.target.facets = 1;
     }
 
     /// Whether source and target are one mapping and nothing is turned: places are in proportion, with no mapping between.
@@ -77,14 +83,8 @@ impl Geometry {
         }
     }
 
-    fn source_place<R: Real>(&self, point: ChartPoint<R>) -> Place {
-        Place {
-            chart: point.chart,
-            at: [
-                self.source.place(0, point.u.to_f64()),
-                self.source.place(1, point.v.to_f64()),
-            ],
-        }
+    fn source_place(&self, point: ChartPoint<f64>) -> Place {
+        self.source.found(point)
     }
 
     /// Where the source is looked up for a place of the target.
@@ -92,7 +92,10 @@ impl Geometry {
         let point = self.target_point(chart, at);
         if self.is_identity() {
             let on = self.target.mapping.info().domain.contains(point.u, point.v);
-            return on.then_some(Place { chart, at });
+            return on.then(|| Place {
+                part: self.source.part(point),
+                at,
+            });
         }
         if self.is_proportional() {
             let on = self.target.mapping.info().domain.contains(point.u, point.v);

@@ -2,8 +2,10 @@
 
 use std::ops::Range;
 
+use super::geometry::Place;
 use crate::imaging::{MapShape, Siting};
-use crate::mapping::{Domain, MappingId};
+use crate::mapping::{ChartPoint, Domain, MappingId};
+use crate::math::Vec3;
 
 /// A chart's texels. Places are counted in texels: k is the middle of texel k, in either siting.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,7 +13,12 @@ pub(super) struct Grid {
     pub mapping: MappingId,
     pub size: [u32; 2],
     pub siting: Siting,
+    /// Parts of a chart that filters do not look across as if it were smooth there: see [`Grid::part`].
+    pub facets: u32,
 }
+
+/// Charts of fewer texels a side are one part: those of eight have texels of their own in each.
+const LEAST_DIVIDED: u32 = 8;
 
 /// Nearer to a texel's middle than this, a place is put upon it: a millionth of a texel, a thousandth of what is promised,
 /// and far above the rounding of a place (4e-12 at 16384 texels). What should hit texels hits them to the bit.
@@ -34,6 +41,29 @@ impl Grid {
             mapping: shape.mapping,
             size: shape.size,
             siting: shape.siting,
+            facets: if shape.size.iter().all(|n| *n >= LEAST_DIVIDED) {
+                shape.mapping.facets()
+            } else {
+                1
+            },
+        }
+    }
+
+    /// The part of the map in which a point lies: its chart's number times the facets of a chart, and its facet. To filters a
+    /// part is what a chart is to others: beyond its border lies its own gutter.
+    pub fn part(&self, point: ChartPoint<f64>) -> u32 {
+        if self.facets == 1 {
+            return point.chart;
+        }
+        point.chart * self.facets + self.mapping.facet(point)
+    }
+
+    /// The direction of a point beyond one of its chart's parts.
+    pub fn beyond(&self, facet: u32, point: ChartPoint<f64>) -> Vec3<f64> {
+        if self.facets == self.mapping.facets() {
+            self.mapping.extended(facet, point)
+        } else {
+            self.mapping.continued(point)
         }
     }
 
@@ -49,6 +79,14 @@ impl Grid {
             Siting::Centre => coordinate * count - 0.5,
             Siting::Edge if self.size[side] == 1 => coordinate - 0.5,
             Siting::Edge => coordinate * (count - 1.0),
+        }
+    }
+
+    /// The place of a chart point.
+    pub fn found(&self, point: ChartPoint<f64>) -> Place {
+        Place {
+            part: self.part(point),
+            at: [self.place(0, point.u), self.place(1, point.v)],
         }
     }
 

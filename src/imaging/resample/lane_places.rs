@@ -7,13 +7,13 @@ use pulp::NullaryFnOnce;
 use super::conversion::{Conversion, Isa};
 use super::geometry::Geometry;
 use super::lookups::{Lookups, Places};
-use crate::mapping::{DirLanes, LANES, Lane, Line, MappingId, PointLanes};
+use crate::mapping::{AngleLanes, DirLanes, LANES, Lane, Line, MappingId, PointLanes};
 use crate::math::floor_and_rest;
 
 /// Places for mappings that compute many directions at once.
 ///
 /// What columns and rows have in common is computed once for the plan in f64; the rest in f32, with whole parts kept apart, so that
-/// charts of 16384 texels are resolved too.
+/// charts of 16384 texels are resolved too. Where columns of the target are meridians of the source, no longitude is left to compute.
 #[derive(Clone, Debug)]
 pub(super) struct LanePlaces {
     pub isa: Isa,
@@ -22,14 +22,27 @@ pub(super) struct LanePlaces {
     /// The four numbers of each column, with room for a whole block from any column on.
     columns: [Vec<f32>; 4],
     rows: Vec<Line>,
+    /// For each chart whose columns lie in columns of the source.
+    meridians: Vec<Option<Meridians>>,
     turn: Option<[[f32; 3]; 3]>,
     /// place = coordinate * scale + offset, in source texels across and down.
     scale: [f32; 2],
     offset: [f32; 2],
 }
 
+/// Source columns of a chart's columns.
+#[derive(Clone, Debug)]
+struct Meridians {
+    /// With room for a whole block from any column on.
+    columns: Vec<i32>,
+    right: Vec<f32>,
+    /// The turn has exchanged north and south.
+    is_upside_down: bool,
+}
+
 /// The places of [`LANES`] texels: [`Lookups`] of a fixed length.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 pub(super) struct PlaceLanes {
     pub chart: [u32; LANES],
     pub column: [i32; LANES],
@@ -42,8 +55,8 @@ pub(super) struct PlaceLanes {
 #[derive(Clone, Debug, Default)]
 pub(super) struct LaneScratch {
     dirs: DirLanes,
+    latitudes: AngleLanes,
     points: PointLanes,
-    pub places: PlaceLanes,
 }
 
 impl Default for PlaceLanes {
@@ -87,6 +100,7 @@ impl LanePlaces {
                 list.push(number);
             }
         }
+        let charts = 0..target.mapping.info().chart_count();
         let is_turned = geometry.turn != Conversion::UNTURNED;
         Some(Self {
             isa,
@@ -94,6 +108,9 @@ impl LanePlaces {
             target: target.mapping,
             columns,
             rows: (0..height).map(|row| line(1, row)).collect(),
+            meridians: charts
+                .map(|chart| Meridians::new(geometry, chart).filter(|_| is_upright))
+                .collect(),
             turn: is_turned.then(|| geometry.turn.map(|row| row.map(|c| c as f32))),
             scale: [0, 1].map(|side| source.density(side) as f32),
             offset: [0, 1].map(|side| source.place(side, 0.0) as f32),
@@ -102,11 +119,18 @@ impl LanePlaces {
 
     /// The places of the texels from `column` on.
     #[inline(always)]
-    pub fn fill_lanes(&self, chart: u32, row: u32, column: u32, scratch: &mut LaneScratch) {
+    pub fn fill_lanes(
+        &self,
+        chart: u32,
+        row: u32,
+        column: u32,
+        scratch: &mut LaneScratch,
+        places: &mut PlaceLanes,
+    ) {
         let LaneScratch {
             dirs,
+            latitudes,
             points,
-            places,
         } = scratch;
         let first = column as usize;
         let mut columns: [&Lane; 4] = [&[0.0; LANES]; 4];
@@ -118,6 +142,23 @@ impl LanePlaces {
         let Some(&row) = self.rows.get(row as usize) else {
             return;
         };
+        let [scale, offset] = [self.scale, self.offset];
+        if let Some(Some(meridians)) = self.meridians.get(chart as usize) {
+            self.target.latitude_lanes(columns, row, latitudes);
+            if meridians.is_upside_down {
+                for k in 0..LANES {
+                    latitudes.base[k] = -latitudes.base[k];
+                    latitudes.rest[k] = -latitudes.rest[k];
+                }
+            }
+            self.source.parallel_lanes(latitudes, points);
+            meridians.fill(first, places);
+            for k in 0..LANES {
+                (places.row[k], places.below[k]) =
+                    placed(points.base_v[k], points.rest_v[k], scale[1], offset[1]);
+            }
+            return;
+        }
         self.target.inverse_lanes(chart, columns, row, dirs);
         if let Some([a, b, c]) = self.turn {
             for k in 0..LANES {
@@ -129,7 +170,6 @@ impl LanePlaces {
         }
         self.source.forward_lanes(dirs, points);
         places.chart = points.chart;
-        let [scale, offset] = [self.scale, self.offset];
         for k in 0..LANES {
             (places.column[k], places.right[k]) =
                 placed(points.base_u[k], points.rest_u[k], scale[0], offset[0]);
@@ -137,6 +177,44 @@ impl LanePlaces {
         for k in 0..LANES {
             (places.row[k], places.below[k]) =
                 placed(points.base_v[k], points.rest_v[k], scale[1], offset[1]);
+        }
+    }
+}
+
+impl Meridians {
+    fn new(geometry: &Geometry, chart: u32) -> Option<Self> {
+        let (source, target) = (&geometry.source, &geometry.target);
+        if !source.mapping.has_parallels() || !target.mapping.has_meridians(chart) {
+            return None;
+        }
+        let [width, height] = target.size;
+        // Any row tells the longitude; far from the poles it is exact.
+        let row = 0.5 * f64::from(height - 1);
+        let place = |column: u32| geometry.place(chart, [f64::from(column.min(width - 1)), row]);
+        let (mut columns, mut right) = (Vec::new(), Vec::new());
+        for column in 0..width + LANES as u32 {
+            let [x, _] = place(column)?.at;
+            columns.push(x.floor() as i32);
+            right.push((x - x.floor()) as f32);
+        }
+        Some(Self {
+            columns,
+            right,
+            is_upside_down: geometry.turn[1][1] < 0.0,
+        })
+    }
+
+    /// Chart and columns of a block.
+    #[inline(always)]
+    fn fill(&self, first: usize, places: &mut PlaceLanes) {
+        let columns = self
+            .columns
+            .get(first..)
+            .and_then(|list| list.first_chunk());
+        let right = self.right.get(first..).and_then(|list| list.first_chunk());
+        if let (Some(columns), Some(right)) = (columns, right) {
+            places.chart.fill(0);
+            (places.column, places.right) = (*columns, *right);
         }
     }
 }
@@ -163,12 +241,13 @@ impl NullaryFnOnce for Fill<'_> {
     #[inline(always)]
     fn call(self) {
         let mut scratch = LaneScratch::default();
+        let mut places = PlaceLanes::default();
         let mut at = 0;
         for column in self.columns.clone().step_by(LANES) {
             self.places
-                .fill_lanes(self.chart, self.row, column, &mut scratch);
+                .fill_lanes(self.chart, self.row, column, &mut scratch, &mut places);
             let count = LANES.min((self.columns.end - column) as usize);
-            let (places, range) = (&scratch.places, at..at + count);
+            let range = at..at + count;
             self.out.chart[range.clone()].copy_from_slice(&places.chart[..count]);
             self.out.column[range.clone()].copy_from_slice(&places.column[..count]);
             self.out.row[range.clone()].copy_from_slice(&places.row[..count]);

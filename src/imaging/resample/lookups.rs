@@ -11,7 +11,7 @@ use super::grid::split;
 /// thousandth of a texel: texel k has its centre at `column` k with `right` 0.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lookups {
-    /// Chart of the source; [`Lookups::NOWHERE`] where the target's texel has no direction.
+    /// Part of the source, where its charts are whole the chart (see [`super::grid::Grid::part`]); [`Lookups::NOWHERE`] where the target's texel has no direction.
     pub chart: Vec<u32>,
     /// The texel at or left of the place; -1 left of the first texel's centre.
     pub column: Vec<i32>,
@@ -36,18 +36,13 @@ impl Lookups {
         self.below.resize(count, 0.0);
     }
 
-    /// How many places there are.
-    pub fn len(&self) -> usize {
-        self.chart.len()
-    }
-
     /// Puts a place, or nowhere, at an index.
     pub fn set(&mut self, index: usize, place: Option<Place>) {
         let Some(place) = place else {
             self.chart[index] = Self::NOWHERE;
             return;
         };
-        self.chart[index] = place.chart;
+        self.chart[index] = place.part;
         (self.column[index], self.right[index]) = split(place.at[0]);
         (self.row[index], self.below[index]) = split(place.at[1]);
     }

@@ -8,12 +8,13 @@ use super::fused::Fused;
 use super::general::{General, Way};
 use super::geometry::Geometry;
 use super::grid::Grid;
+use super::gutter::Gutter;
 use super::lane_places::LanePlaces;
 use super::lookups::Places;
 use super::report::{Report, Skipped};
 use super::stored::{Decoder, Stored, Working};
-use super::strips::{Threads, fill};
-use super::texels::{Gutter, Texels};
+use super::strips::{Kernel, Threads, fill};
+use super::texels::Texels;
 use crate::imaging::load::MOST_RASTER_BYTES;
 use crate::imaging::{
     Channels, EnvironmentMap, MapShape, Progress, Raster, SampleKind, Samples, Stage, Transfer,
@@ -65,19 +66,22 @@ impl Plan {
             Layout::Faces => vec![conversion.size; target.charts.iter().flatten().count()],
             layout => MapShape::raster_sizes(conversion.mapping, layout, conversion.size),
         };
-        let geometry = Geometry::new(source, &target, conversion);
+        let mut geometry = Geometry::new(source, &target, conversion);
         let survey = Survey::of(&geometry, &target);
         let filter = conversion.filter.unwrap_or(if survey.minifies {
             Filter::Area
         } else {
             Filter::Bicubic
         });
+        if filter == Filter::Nearest {
+            geometry.do_not_divide();
+        }
         Ok(Self {
             source: source.clone(),
             pictures,
             conversion: conversion.clone(),
             filter,
-            gutter: Gutter::new(&Grid::of(source), reach(filter)),
+            gutter: Gutter::new(&geometry.source, reach(filter)),
             lanes: LanePlaces::new(&geometry, conversion.isa.unwrap_or(Isa::Avx512).available()),
             geometry,
             threads: Threads::new(conversion.threads),
@@ -152,6 +156,23 @@ impl Plan {
         Ok(self.report())
     }
 
+    /// Fills a map by a kernel of its own.
+    pub(super) fn fill_by<K>(
+        &self,
+        target: &mut EnvironmentMap,
+        kernel: &K,
+        progress: &Progress,
+    ) -> Result<(), ResampleError>
+    where
+        K: Kernel<u8> + Kernel<u16> + Kernel<f32>,
+    {
+        match self.target.samples {
+            SampleKind::U8 => fill::<u8>(target, kernel, &self.threads, progress),
+            SampleKind::U16 => fill::<u16>(target, kernel, &self.threads, progress),
+            SampleKind::F32 => fill::<f32>(target, kernel, &self.threads, progress),
+        }
+    }
+
     fn run_from<S: Stored, const N: usize>(
         &self,
         source: &EnvironmentMap,
@@ -197,7 +218,7 @@ impl Plan {
             && !self.conversion.dither
     }
 
-    fn encoder(&self) -> Encoder {
+    pub(super) fn encoder(&self) -> Encoder {
         Encoder {
             working: self.working(),
             transfer: self.target.transfer,
@@ -226,14 +247,10 @@ impl Plan {
             sampler,
             encoder: self.encoder(),
         };
-        match self.target.samples {
-            SampleKind::U8 => fill::<u8>(target, &kernel, &self.threads, progress),
-            SampleKind::U16 => fill::<u16>(target, &kernel, &self.threads, progress),
-            SampleKind::F32 => fill::<f32>(target, &kernel, &self.threads, progress),
-        }
+        self.fill_by(target, &kernel, progress)
     }
 
-    fn working(&self) -> Working {
+    pub(super) fn working(&self) -> Working {
         Working::of(self.source.transfer, self.conversion.filtered_in)
     }
 

@@ -19,6 +19,28 @@ pub(super) struct Run {
     pub columns: Range<u32>,
 }
 
+/// Some rows of a chart that lies upright in its picture.
+#[derive(Clone, Debug)]
+pub(super) struct Patch {
+    pub chart: u32,
+    pub rows: Range<u32>,
+    pub columns: Range<u32>,
+    /// Samples in a row.
+    pub samples: usize,
+    /// The first row's first sample.
+    pub first: usize,
+    /// Samples from one row to the next.
+    pub down: isize,
+}
+
+impl Patch {
+    /// The first sample of a row, counted from the patch's first.
+    #[inline(always)]
+    pub fn at(&self, index: usize) -> usize {
+        self.first.wrapping_add_signed(self.down * index as isize)
+    }
+}
+
 /// What a thread keeps from run to run.
 #[derive(Default)]
 pub(super) struct Scratch {
@@ -31,6 +53,19 @@ pub(super) struct Scratch {
 pub(super) trait Kernel<T>: Sync {
     /// Writes the run's samples, pixel after pixel.
     fn write(&self, run: &Run, scratch: &mut Scratch, out: &mut [T]);
+
+    /// Writes a patch, in whatever order suits.
+    fn write_patch(&self, patch: &Patch, scratch: &mut Scratch, out: &mut [T]) {
+        for (index, row) in patch.rows.clone().enumerate() {
+            let run = Run {
+                chart: patch.chart,
+                row,
+                columns: patch.columns.clone(),
+            };
+            let at = patch.at(index);
+            self.write(&run, scratch, &mut out[at..at + patch.samples]);
+        }
+    }
 }
 
 /// Rows of a picture that a thread takes at once: enough that taking costs nothing, few enough that all threads end together.
@@ -130,19 +165,27 @@ fn fill_strip<T: Stored>(
         };
         let strides = Strides::of(placement, shape, width as u32);
         let above = strip.rows.start as usize * width * count;
+        let samples = columns.len() * count;
+        if strides.right == count as isize {
+            let patch = Patch {
+                chart: chart as u32,
+                first: strides.at(columns.start as i32, rows.start as i32) - above,
+                rows,
+                columns,
+                samples,
+                down: strides.down,
+            };
+            kernel.write_patch(&patch, scratch, strip.samples);
+            continue;
+        }
+        turned.resize(samples, T::default());
         for row in rows {
             let run = Run {
                 chart: chart as u32,
                 row,
                 columns: columns.clone(),
             };
-            let samples = columns.len() * count;
             let mut at = strides.at(columns.start as i32, row as i32) - above;
-            if strides.right == count as isize {
-                kernel.write(&run, scratch, &mut strip.samples[at..at + samples]);
-                continue;
-            }
-            turned.resize(samples, T::default());
             kernel.write(&run, scratch, turned);
             for pixel in turned.chunks_exact(count) {
                 strip.samples[at..at + count].copy_from_slice(pixel);

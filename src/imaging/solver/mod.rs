@@ -1,11 +1,13 @@
 //! Which face is which: six pictures put together by their edges.
 //!
 //! Seams tell a cube up to its 48 symmetries: it may be turned as a whole, and it may be seen in a mirror. Of all ways that
-//! fit alike, the one is named that leaves most pictures as they are; its mirror image is named beside it.
+//! fit alike, the one is named that leaves most pictures as they are; its mirror image is named beside it. What a latlong's seam cannot
+//! tell either, the names of programs do ([`LatlongWay`]).
 
 mod answer;
 mod borders;
 mod code;
+mod latlong;
 mod search;
 
 use self::borders::Borders;
@@ -16,6 +18,7 @@ use super::{MapShape, Raster};
 use crate::mapping::{Arrangement, Axes};
 
 pub use code::{ShaderLanguage, lookup_code};
+pub use latlong::{LatlongWay, SkyHint};
 
 /// How many times worse a rival must meet, on the seams where it differs, to be ruled out.
 const CLEARLY: f64 = 1.5;
