@@ -1,16 +1,16 @@
-//! Derives the coefficients in `src/math/arctan.rs` and measures how many of them are worth having.
+//! Derives the coefficients in `src/math/arctan.rs` and `src/math/approximation/own.rs` and measures how many of them are worth having.
 //!
 //! `cargo run --release --example derive_arctangent [STRIDE]` prints the tables and the constants as they stand in the
 //! source. It evaluates every float of the upper half of the interval, where the errors are largest, and every
 //! STRIDE-th of the lower (default 64; 1 takes a quarter of an hour). `tests/arctangent.rs` includes this file and
 //! holds the constants to it.
 //!
-//! Each polynomial has the smallest possible largest relative error of the whole function, found by the Remez exchange:
+//! Each polynomial has the smallest possible largest error of the whole function, relative or absolute, found by the Remez exchange:
 //! solve for equal errors of alternating sign at as many points as there are unknowns and one more, move the points to
 //! where the error peaks, repeat. Coefficients are rounded to f32 one after another, lowest power first, and the
 //! remaining ones are fitted anew after each rounding, so that they make up for it.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_4};
 use std::fmt::Write as _;
 use std::io::Write as _;
 
@@ -34,6 +34,8 @@ pub struct Fit {
     pub chosen: usize,
     /// Degree in x of a polynomial of one coefficient.
     first_degree: usize,
+    /// Whether the absolute error is made small: where a coordinate is all that is wanted. Else the relative one.
+    is_absolute: bool,
 }
 
 /// atan x = x + x s P(s).
@@ -47,6 +49,7 @@ pub const ATAN: Fit = Fit {
     counts: 2..=9,
     chosen: 8,
     first_degree: 3,
+    is_absolute: false,
 };
 
 /// sin(x pi/2) = x + x P(s). Taking out x (exact) leaves a smaller rest, whose roundings count less: x (P(s) + 1) errs
@@ -61,6 +64,7 @@ pub const SIN: Fit = Fit {
     counts: 2..=5,
     chosen: 4,
     first_degree: 1,
+    is_absolute: false,
 };
 
 /// cos(x pi/2) = 1 + s P(s).
@@ -74,7 +78,59 @@ pub const COS: Fit = Fit {
     counts: 2..=5,
     chosen: 4,
     first_degree: 2,
+    is_absolute: false,
 };
+
+/// Half of an edge of the continuous cube map as seen from the centre, in radians: atan(1/sqrt 2).
+const HALF_EDGE_RAD: f64 = 0.615_479_708_670_387_3;
+
+/// The arctangent in quarter turns, x P(s). A product less than [`ATAN`] where a chart's coordinate is wanted: with the
+/// half added in one go it is rounded twice only.
+pub const QUARTERS: Fit = Fit {
+    constant: "QUARTERS",
+    end: 1.0,
+    reference: |x| x.atan() / FRAC_PI_2,
+    target: |x| x.atan() / FRAC_PI_2 / x,
+    gain: |x| x,
+    evaluate: [product::<false>, product::<true>],
+    counts: 3..=9,
+    chosen: 9,
+    first_degree: 1,
+    is_absolute: true,
+};
+
+/// The continuous cube map's place along an edge: atan(a/sqrt 2)/(2 alpha) = a P(s). Not the whole of [0, 1] is asked of
+/// the arctangent, so fewer coefficients will do.
+pub const ALONG: Fit = Fit {
+    constant: "ALONG",
+    end: 1.0,
+    reference: |x| (x * FRAC_1_SQRT_2).atan() / (2.0 * HALF_EDGE_RAD),
+    target: |x| (x * FRAC_1_SQRT_2).atan() / (2.0 * HALF_EDGE_RAD) / x,
+    gain: |x| x,
+    evaluate: [product::<false>, product::<true>],
+    counts: 2..=8,
+    chosen: 7,
+    first_degree: 1,
+    is_absolute: true,
+};
+
+/// What the continuous cube map multiplies a latitude in quarter turns by: 1/(2 quarters(1/sqrt(1 + s))) = 1 + s P(s).
+pub const REACH: Fit = Fit {
+    constant: "REACH",
+    end: 1.0,
+    reference: reach,
+    target: |x| (reach(x) - 1.0) / (x * x),
+    gain: |x| x * x,
+    evaluate: [cos::<false>, cos::<true>],
+    counts: 1..=8,
+    chosen: 7,
+    first_degree: 2,
+    is_absolute: true,
+};
+
+fn reach(x: f64) -> f64 {
+    FRAC_PI_4 / (1.0 + x * x).sqrt().recip().atan()
+}
 
 /// a b + c, rounded once (as a driver may) or twice.
 fn multiply_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
@@ -95,6 +151,10 @@ fn atan<const FUSED: bool>(coefficients: &[f32], x: f32) -> f32 {
 
 fn sin<const FUSED: bool>(coefficients: &[f32], x: f32) -> f32 {
     multiply_add::<FUSED>(x, horner::<FUSED>(coefficients, x * x), x)
+}
+
+fn product<const FUSED: bool>(coefficients: &[f32], x: f32) -> f32 {
+    x * horner::<FUSED>(coefficients, x * x)
 }
 
 fn cos<const FUSED: bool>(coefficients: &[f32], x: f32) -> f32 {
@@ -134,7 +194,7 @@ impl Fit {
         rounded
     }
 
-    /// Largest relative error that exact arithmetic would leave with `count` unrounded coefficients.
+    /// Largest error that exact arithmetic would leave with `count` unrounded coefficients.
     fn exact_error(&self, count: usize) -> f64 {
         remez(&self.samples(), 0, count).1
     }
@@ -146,7 +206,11 @@ impl Fit {
             let fraction = (FRAC_PI_2 * f64::from(i) / f64::from(COUNT)).sin().powi(2);
             let s = f64::from(self.end).powi(2) * fraction;
             let x = s.sqrt();
-            let weight = (self.gain)(x) / (self.reference)(x);
+            let weight = if self.is_absolute {
+                (self.gain)(x)
+            } else {
+                (self.gain)(x) / (self.reference)(x)
+            };
             Sample {
                 s,
                 rest: (self.target)(x),
@@ -291,7 +355,7 @@ fn solve(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
 /// The tables and the constants.
 pub fn report(stride: usize) -> Result<String, std::fmt::Error> {
     let mut text = String::new();
-    for fit in [&ATAN, &SIN, &COS] {
+    for fit in [&ATAN, &SIN, &COS, &QUARTERS, &ALONG, &REACH] {
         let counts: Vec<usize> = fit.counts.clone().collect();
         let sets: Vec<Vec<f32>> = counts.iter().map(|&count| fit.derive(count)).collect();
         writeln!(
@@ -301,7 +365,7 @@ pub fn report(stride: usize) -> Result<String, std::fmt::Error> {
         )?;
         writeln!(
             text,
-            "degree  exact rel.  abs unfused  abs fused  ULP unfused  ULP fused  end"
+            "degree  exact err.  abs unfused  abs fused  ULP unfused  ULP fused  end"
         )?;
         for ((&count, set), worst) in counts
             .iter()
@@ -326,6 +390,9 @@ pub fn report(stride: usize) -> Result<String, std::fmt::Error> {
                 "{degree:6}  {exact:10.2e}  {absolute:11.2e}  {absolute_fused:9.2e}"
             )?;
             writeln!(text, "  {ulp:11.3}  {ulp_fused:9.3}  {end}{mark}")?;
+        }
+        for set in &sets {
+            writeln!(text, "{set:?}")?;
         }
         writeln!(text, "{}\n", fit.source())?;
     }

@@ -8,6 +8,7 @@
 //! - [`optics`]: what happens to a ray before it looks up the map;
 //! - [`scene`]: camera, objects and what the pointer hits;
 //! - [`imaging`]: environments as pictures: reading, checking, computing, writing;
+//! - [`lab`]: run time against error, and where each way to compute a mapping breaks;
 //! - [`meshes`]: user models: OBJ and glTF files as meshes;
 //! - `gpu` (feature `explorer`): the renderer;
 //! - `app` (feature `explorer`): the window;
@@ -19,6 +20,7 @@ pub mod cli;
 #[cfg(feature = "explorer")]
 pub mod gpu;
 pub mod imaging;
+pub mod lab;
 pub mod mapping;
 pub mod math;
 pub mod meshes;

@@ -5,15 +5,19 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// A layer and those that it may use. `main.rs` puts `app` and `cli` together; `lib.rs` lists them.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 10] = [
     ("math", &[]),
     ("mapping", &["math"]),
     ("optics", &["math"]),
     ("scene", &["math", "optics"]),
     ("imaging", &["math", "mapping"]),
+    ("lab", &["math", "mapping", "imaging"]),
     ("meshes", &["math", "scene", "imaging"]),
     ("gpu", &["math", "mapping", "optics", "scene", "imaging"]),
-    ("cli", &["math", "mapping", "optics", "scene", "imaging"]),
+    (
+        "cli",
+        &["math", "mapping", "optics", "scene", "imaging", "lab"],
+    ),
     (
         "app",
         &[
@@ -37,8 +41,8 @@ const FENCED_CRATES: [(&str, &[&str]); 22] = [
     ("image", &["imaging"]),
     ("indicatif", &["cli"]),
     ("signal_hook", &["cli"]),
-    ("pulp", &["imaging"]),
-    ("rayon", &["imaging"]),
+    ("pulp", &["math", "mapping", "imaging"]),
+    ("rayon", &["imaging", "lab"]),
     ("ruzstd", &["imaging"]),
     ("exr", &["imaging"]),
     ("gltf", &["meshes"]),

@@ -10,7 +10,8 @@ mod derive;
 use std::f32::consts::FRAC_PI_4;
 use std::f64::consts::TAU;
 
-use derive::{ATAN, COS, Fit, SIN, ulp_error};
+use derive::{ALONG, ATAN, COS, Fit, QUARTERS, REACH, SIN, ulp_error};
+use sixfold::math::approximation::LEVELS;
 use sixfold::math::inputs::Random;
 use sixfold::math::ulp::ulp_distance;
 use sixfold::math::{
@@ -76,6 +77,31 @@ fn constants_are_what_the_program_derives() {
         );
         let fewer = fit.chosen - 1;
         assert_ne!(fit.derive(fewer), constants[..fewer], "{}", fit.constant);
+    }
+}
+
+/// Largest errors in quarter turns of the arctangents of [`LEVELS`], every product and sum fused.
+const LEVEL_ERRORS: [f64; 7] = [3.9e-4, 5.2e-5, 7.4e-6, 1.2e-6, 2.2e-7, 7.7e-8, 6.1e-8];
+
+#[test]
+fn levels_are_what_the_program_derives() {
+    for (level, budget) in LEVELS.iter().zip(LEVEL_ERRORS) {
+        for (fit, coefficients) in [
+            (QUARTERS, level.quarters),
+            (ALONG, level.along),
+            (REACH, level.reach),
+            (SIN, level.sin),
+            (COS, level.cos),
+        ] {
+            let (name, derived) = (fit.constant, fit.derive(coefficients.len()));
+            assert_eq!(derived, coefficients, "{} of {}", name, level.id);
+            let mut moved = coefficients.to_vec();
+            moved[0] = moved[0].next_up();
+            assert_ne!(derived, moved);
+        }
+        assert_eq!(level.id, format!("atan-{}", 2 * level.quarters.len() - 1));
+        let error = QUARTERS.measure(&[level.quarters.to_vec()], [4093, 67])[0][1].0;
+        within(level.id, error, budget);
     }
 }
 

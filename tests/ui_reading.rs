@@ -26,9 +26,16 @@ use sixfold::imaging::save::{Content, SaveOptions, save};
 use sixfold::imaging::{Environment, MapFile, Progress};
 use sixfold::mapping::{Arrangement, Layout, MappingId};
 use sixfold::math::Vec3;
-use window_kit::{Ui, open, open_sized, run, settle, small};
+use window_kit::{Ui, open, open_sized, run, settle};
 
 const FACE: u32 = 48;
+
+/// Small maps and no panels: what is tested here is beside them.
+fn small() -> AppState {
+    let mut state = window_kit::small();
+    state.panels.iter_mut().for_each(|panel| panel.open = false);
+    state
+}
 
 /// A cross of a cube whose pictures are these faces, in a file.
 fn cross(folder: &Path, name: &str, arrangement: &str) -> PathBuf {
@@ -302,6 +309,7 @@ fn a_scene_whose_file_is_not_certain_asks_and_one_that_says_it_does_not() {
     assert_eq!(old.schema, SCHEMA);
     let with_budget = |state: AppState| AppState {
         texel_budget: small().texel_budget,
+        panels: small().panels,
         ..state
     };
     let ui = open(with_budget(old.clone()));

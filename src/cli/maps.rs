@@ -5,7 +5,7 @@ use std::io::Write;
 use serde::Serialize;
 
 use super::{CliError, DONE};
-use crate::mapping::{Claims, Domain, Layout, MappingId, SHARED_EVALUATORS, WeakSpot};
+use crate::mapping::{Claims, Domain, Layout, MappingId, WeakSpot};
 
 /// Options of `sixfold maps`.
 #[derive(Debug, clap::Args)]
@@ -46,15 +46,19 @@ struct Convention {
 struct Evaluator {
     id: &'static str,
     about: &'static str,
+    source: &'static str,
+    is_vector: bool,
+    has_inverse: bool,
 }
 
 fn entry(map: MappingId) -> Entry {
     let info = map.info();
-    let shared = SHARED_EVALUATORS.iter();
-    let shared = shared.map(|&(id, about)| Evaluator { id, about });
-    let own = info.evaluators.iter().map(|own| Evaluator {
-        id: own.id,
-        about: own.about,
+    let evaluators = map.evaluators().iter().map(|evaluator| Evaluator {
+        id: evaluator.id,
+        about: evaluator.about,
+        source: evaluator.source,
+        is_vector: evaluator.is_vector,
+        has_inverse: evaluator.inverse.is_some(),
     });
     let conventions = info.conventions.iter().map(|convention| Convention {
         id: convention.id,
@@ -74,7 +78,7 @@ fn entry(map: MappingId) -> Entry {
         layout: info.layout,
         claims: info.claims,
         conventions: conventions.collect(),
-        evaluators: shared.chain(own).collect(),
+        evaluators: evaluators.collect(),
         weak_spots: info.weak_spots,
         source: info.source,
     }

@@ -3,6 +3,8 @@
 //! Standard output carries data only; messages go to standard error, one line each. Exit status: 0 done, 1 the work
 //! failed, 2 wrong usage, 130 stopped by Ctrl-C. What needs the window or the GPU is not done here but handed back as a [`Request`].
 
+mod bar;
+mod bench;
 mod convert;
 mod csv;
 mod eval;
@@ -10,6 +12,7 @@ mod figure;
 mod maps;
 mod plan;
 mod render;
+mod stress;
 
 pub use figure::FigureOptions;
 pub use render::{Picture, RenderOptions};
@@ -66,6 +69,10 @@ enum Command {
     Eval(plan::EvalOptions),
     /// One environment map into another mapping, layout, size, format
     Convert(Box<convert::ConvertOptions>),
+    /// Run time against error of every evaluator of every mapping
+    Bench(bench::BenchOptions),
+    /// Numerical stress test of the same
+    Stress(stress::StressOptions),
     /// Draw one picture without opening a window
     Render(Box<RenderOptions>),
     /// Draw the figures of the source articles anew
@@ -79,6 +86,8 @@ enum CliError {
     Usage(#[from] plan::PlanError),
     #[error(transparent)]
     Convert(#[from] convert::ConvertError),
+    #[error(transparent)]
+    Lab(#[from] bench::LabError),
     #[error("standard input cannot be read: {0}")]
     Read(io::Error),
     #[error("standard output cannot be written: {0}")]
@@ -122,6 +131,10 @@ fn obey(cli: Cli) -> Request {
                 .map(|()| DONE)
                 .map_err(CliError::from),
         )),
+        Some(Command::Bench(options)) => finish(|out| bench::run(&options, out)),
+        Some(Command::Stress(options)) => {
+            finish(|out| stress::run(&options, out, io::stderr().lock()))
+        }
         Some(Command::Render(options)) => Request::Render(options),
         Some(Command::Figure(options)) => Request::Figure(options),
         None => match cli.scene {

@@ -1,9 +1,8 @@
 //! What `sixfold eval` is asked to compute, checked before the first line is read.
 
 use super::csv::Precision;
-use crate::mapping::{
-    ChartPoint, Convention, EvaluatorInfo, MappingId, MappingInfo, SHARED_EVALUATORS,
-};
+use crate::mapping::evaluator::{EvaluatorInfo, REFERENCE, SINGLE};
+use crate::mapping::{ChartPoint, Convention, MappingId, MappingInfo};
 use crate::math::Vec3;
 
 /// Options of `sixfold eval`.
@@ -17,7 +16,7 @@ pub(super) struct EvalOptions {
     /// Return a publication's own numbers for the same map
     #[arg(long, value_name = "NAME")]
     pub(super) convention: Option<String>,
-    /// Compute it another way: `f32`, `reference`, or one of the mapping's own
+    /// Compute it another way (`sixfold maps` lists them)
     #[arg(long, value_name = "NAME")]
     pub(super) evaluator: Option<String>,
     /// Number type of input and output
@@ -67,9 +66,6 @@ pub(super) struct Plan {
     single: bool,
 }
 
-const SINGLE: &str = SHARED_EVALUATORS[0].0;
-const REFERENCE: &str = SHARED_EVALUATORS[1].0;
-
 impl Plan {
     pub(super) fn new(options: &EvalOptions) -> Result<Self, PlanError> {
         let map = options.map;
@@ -94,14 +90,14 @@ impl Plan {
             Some(SINGLE) if double => return Err(PlanError::SingleOnly(SINGLE)),
             Some(SINGLE) => true,
             Some(name) => {
-                let found = info.evaluators.iter().find(|own| own.id == name);
-                let shared = SHARED_EVALUATORS.iter().map(|(id, _)| *id);
-                let own = found.ok_or_else(|| PlanError::UnknownEvaluator {
-                    map,
-                    name: name.to_owned(),
-                    known: list(shared.chain(info.evaluators.iter().map(|own| own.id))),
-                })?;
-                if options.inverse {
+                let own = map
+                    .evaluator(name)
+                    .ok_or_else(|| PlanError::UnknownEvaluator {
+                        map,
+                        name: name.to_owned(),
+                        known: list(map.evaluators().iter().map(|own| own.id)),
+                    })?;
+                if options.inverse && own.inverse.is_none() {
                     return Err(PlanError::EvaluatorWithoutInverse(own.id));
                 }
                 if options.convention.is_some() {
@@ -137,7 +133,7 @@ impl Plan {
             (Formula::Convention(convention), false) => return convention.forward.1(double),
             (Formula::Mapping(map), true) => map.forward(single),
             (Formula::Convention(convention), true) => convention.forward.0(single),
-            (Formula::Own(evaluator), _) => (evaluator.forward)(single),
+            (Formula::Own(evaluator), _) => evaluator.forward_one(single),
         };
         point.map(ChartPoint::to_f64)
     }
@@ -149,7 +145,7 @@ impl Plan {
             return match self.formula {
                 Formula::Mapping(map) => map.inverse(point),
                 Formula::Convention(convention) => (convention.inverse?.0)(point),
-                Formula::Own(_) => None,
+                Formula::Own(evaluator) => evaluator.inverse_one(point),
             }
             .map(Vec3::to_f64);
         }

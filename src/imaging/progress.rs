@@ -23,12 +23,14 @@ pub enum Stage {
     Writing,
     /// What cannot be shown is counted and replaced.
     Checking,
+    /// Times are taken and errors found.
+    Measuring,
     /// The result is ready.
     Done,
 }
 
 impl Stage {
-    const ALL: [Self; 8] = [
+    const ALL: [Self; 9] = [
         Self::Waiting,
         Self::Reading,
         Self::Decoding,
@@ -36,6 +38,7 @@ impl Stage {
         Self::Converting,
         Self::Writing,
         Self::Checking,
+        Self::Measuring,
         Self::Done,
     ];
 
@@ -49,6 +52,7 @@ impl Stage {
             Self::Converting => "converting",
             Self::Writing => "writing",
             Self::Checking => "checking",
+            Self::Measuring => "measuring",
             Self::Done => "done",
         }
     }

@@ -2,6 +2,7 @@
 //!
 //! Azimuthal equidistant: centre +z, the whole rim -z.
 
+use super::{evaluator, seed_forms};
 use super::{ChartPoint, Coverage, Domain, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3, unit_in_plane};
 use std::f64::consts::FRAC_1_PI;
@@ -18,6 +19,7 @@ impl Mapping for Angular {
         charts: &["disc"],
         domain: Domain::Disc,
         coverage: Coverage::SphereLessPoint([0.0, 0.0, -1.0]),
+        evaluators: || evaluator::with_arctangents_and::<Angular>(seed_forms::ANGULAR),
         ..MappingInfo::PLAIN
     };
 

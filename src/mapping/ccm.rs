@@ -11,11 +11,14 @@
 mod appendix_b;
 mod paper;
 
+pub(super) use paper::{from_s_t, fused_shader, printed, shader, to_s_t};
+
 use super::cube_face::{
     self, face_lanes, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane,
 };
 use super::{AngleLanes, DirLanes, Lane, Line, PointLanes};
-use super::{ChartPoint, Convention, Erratum, EvaluatorInfo, Mapping, MappingInfo, Step};
+use super::{ChartPoint, Convention, Erratum, Mapping, MappingInfo, Step};
+use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3, atan_unit, sin_cos_eighth};
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, PI, SQRT_2};
 
@@ -61,11 +64,7 @@ impl Mapping for Ccm {
             why: "the root belongs inside the denominator's arcsine; printed, v does not reach 1 on the edge",
             values: |dir| Some((paper::printed_eq6(dir)?.v, paper::forward(dir)?.v)),
         }],
-        evaluators: &[EvaluatorInfo {
-            id: "paper-shader",
-            about: "Appendix A word for word in f32: six rounded dot products, ceil, asin; has holes where ceil(-1) is taken as true",
-            forward: paper::shader,
-        }],
+        evaluators: || evaluator::with_arctangents_and::<Ccm>(seed_forms::CCM),
         ..cube_face::FAMILY
     };
 

@@ -234,8 +234,8 @@ pub struct MappingInfo {
     pub conventions: &'static [Convention],
     /// Where the literature prints it wrongly.
     pub errata: &'static [Erratum],
-    /// Ways to compute it beyond the shared ones.
-    pub evaluators: &'static [EvaluatorInfo],
+    /// Makes the list of ways to compute it beyond the shared ones.
+    pub evaluators: fn() -> Vec<EvaluatorInfo>,
 }
 
 impl MappingInfo {
@@ -259,7 +259,7 @@ impl MappingInfo {
         weak_spots: &[],
         conventions: &[],
         errata: &[],
-        evaluators: &[],
+        evaluators: Vec::new,
     };
 
     /// Number of charts.

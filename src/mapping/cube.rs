@@ -1,5 +1,6 @@
 //! Cube map: six pictures taken with a square field of view of 90 degrees, the gnomonic plane as it is.
 
+use super::evaluator;
 use super::chart::{to_signed, to_unit};
 use super::cube_face::{
     self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, is_side,
@@ -27,6 +28,7 @@ impl Mapping for Cube {
             forward: (lower_left, lower_left),
             inverse: Some((lower_left_inverse, lower_left_inverse)),
         }],
+        evaluators: || evaluator::plain_and::<Cube>(&[]),
         ..cube_face::FAMILY
     };
 

@@ -1,5 +1,6 @@
 //! Equi-angular cube: each face is divided by angle instead of by tangent.
 
+use super::evaluator;
 use super::cube_face::{
     self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, is_side,
     largest_component, shallow_latitudes,
@@ -17,6 +18,7 @@ impl Mapping for Eac {
         name: "Equi-angular cube",
         about: "A cube whose faces are divided by angle: areas differ by 1.41 only.",
         source: "the tangent adjustment of the survey literature; EAC of 360-degree video",
+        evaluators: || evaluator::with_arctangents_and::<Eac>(&[]),
         ..cube_face::FAMILY
     };
 

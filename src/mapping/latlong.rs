@@ -3,6 +3,7 @@
 //! The centre of the picture looks along +z, +x lies to the right, +y is up. Grimm and Niebruegge, equations 1 to 4.
 
 use super::{AngleLanes, DirLanes, LANES, Lane, Line, PointLanes};
+use super::{evaluator, seed_forms};
 use super::{ChartPoint, Convention, Erratum, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3, atan2_turns};
 use std::f64::consts::FRAC_1_PI;
@@ -43,6 +44,7 @@ impl Mapping for Latlong {
                 values: |dir| grimm(dir).map(|p| (0.5 + p.v, p.v)),
             },
         ],
+        evaluators: || evaluator::with_arctangents_and::<Latlong>(seed_forms::LATLONG),
         ..MappingInfo::PLAIN
     };
 

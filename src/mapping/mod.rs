@@ -16,22 +16,26 @@ mod axes;
 mod chart;
 mod convention;
 pub mod cube_face;
-mod evaluator;
+pub mod evaluator;
 mod frame;
 mod jacobian;
+mod lane_forms;
 mod lanes;
 mod layout;
+mod seed_forms;
+mod slices;
 mod turn;
 
 pub use arrangement::{Arrangement, ArrangementError, Held};
 pub use axes::Axes;
 pub use chart::{ChartPoint, Claims, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot};
 pub use convention::{Convention, Erratum, ForwardFn, InverseFn};
-pub use evaluator::{Cpu, Evaluator, EvaluatorError, EvaluatorInfo, SHARED_EVALUATORS};
+pub use evaluator::{Cpu, Evaluator, EvaluatorError, EvaluatorInfo};
 pub use frame::{CubeFrame, Founded, Frame, FrameError, Pictures, UnknownFrame};
 pub use jacobian::Jacobian;
 pub use lanes::{AngleLanes, DirLanes, LANES, Lane, Line, PointLanes};
 pub use layout::{Cell, Layout};
+pub use slices::{DirList, Dirs, DirsMut, NOWHERE, PointList, Points, PointsMut};
 pub use turn::Turn;
 
 use crate::math::{Real, Vec3};

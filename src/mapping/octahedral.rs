@@ -2,6 +2,7 @@
 //!
 //! The centre of the square is +y, the four corners are -y, the edges' middles +-x and +-z.
 
+use super::evaluator;
 use super::chart::{to_signed, to_unit};
 use super::{ChartPoint, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
@@ -16,6 +17,7 @@ impl Mapping for Octahedral {
         about: "One square without a trigonometric function: the lower half is folded out into the corners.",
         source: "Engelhardt and Dachsbacher 2008",
         charts: &["square"],
+        evaluators: || evaluator::plain_and::<Octahedral>(&[]),
         ..MappingInfo::PLAIN
     };
 

@@ -2,6 +2,7 @@
 //!
 //! Chart 0 looks along +z, chart 1 along -z; both are what an observer inside sees. Exactly conformal, area ratio 4.
 
+use super::evaluator;
 use super::{ChartPoint, Claims, Domain, Layout, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
@@ -19,14 +20,16 @@ impl Mapping for Paraboloid {
         layout: Layout::Pair,
         claims: Claims {
             conformal: true,
-            ..MappingInfo::PLAIN.claims
+        ..MappingInfo::PLAIN.claims
         },
+            evaluators: || evaluator::plain_and::<Paraboloid>(&[]),
         ..MappingInfo::PLAIN
     };
 
     fn forward<R: Real>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
         let d = dir.scaled_direction()?;
-        let back = d.z < R::zero();
+        // Of the direction as it came: scaling may have taken the digits of a small z.
+        let back = dir.z < R::zero();
         let twice = R::two() * (d.length() + d.z.abs());
         let x = if back { -d.x } else { d.x };
         let (u, v) = (R::half() + x / twice, R::half() - d.y / twice);

@@ -97,6 +97,16 @@ macro_rules! registry {
                 match self { $(Self::$mapping => $module::$mapping::inverse_lanes(chart, columns, row, dirs),)+ }
             }
 
+            /// [`Mapping::forward`] of each direction, computed in another number type and rounded at the end.
+            pub(super) fn forward_in<R: Real>(self, dirs: Dirs<'_>, points: PointsMut<'_>) {
+                match self { $(Self::$mapping => evaluator::forward_in::<R, $module::$mapping>(dirs, points),)+ }
+            }
+
+            /// [`Mapping::inverse`] of each point, computed in another number type and rounded at the end.
+            pub(super) fn inverse_in<R: Real>(self, points: Points<'_>, dirs: DirsMut<'_>) {
+                match self { $(Self::$mapping => evaluator::inverse_in::<R, $module::$mapping>(points, dirs),)+ }
+            }
+
             /// See [`Mapping::has_meridians`].
             pub fn has_meridians(self, chart: u32) -> bool {
                 match self { $(Self::$mapping => $module::$mapping::has_meridians(chart),)+ }

@@ -1,10 +1,14 @@
-//! Numbers: the number trait, stable angles, turns, units in the last place, dual numbers, input points.
+//! Numbers: the number trait, stable angles, turns, units in the last place, dual numbers, approximations,
+//! instruction sets, input points.
 
+pub mod approximation;
 mod arctan;
 mod branchless;
 mod double_word;
 mod dual;
 pub mod inputs;
+mod isa;
+mod library;
 mod real;
 mod rotation;
 pub mod ulp;
@@ -16,6 +20,8 @@ pub use arctan::{
 pub use branchless::{atan_turns, atan2_turns, floor_and_rest, nearest_whole, sin_cos_eighth};
 pub use double_word::DoubleWord;
 pub use dual::Dual;
+pub use isa::Isa;
+pub use library::Library;
 pub use real::{Real, Textbook};
 pub use rotation::{BadRotation, Rotation, Rows, turned};
 pub use vec3::{Vec3, angle_rad, unit_in_plane};

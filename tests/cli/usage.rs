@@ -13,7 +13,7 @@ fn wrong_usage_ends_with_2_and_one_line_that_helps() {
         (&["eval", "eac", "--convention", "grimm"], "it has: none"),
         (
             &["eval", "ccm", "--evaluator", "wgsl"],
-            "it has: f32, reference, paper-shader",
+            "it has: f32, reference, library, atan-5,",
         ),
         (
             &["eval", "ccm", "--evaluator", "paper-shader", "--inverse"],

@@ -1,5 +1,7 @@
 //! There and back, by direction and by chart point, and each way against f64.
 
+use sixfold::lab::stress::allowed;
+use sixfold::mapping::evaluator::SINGLE;
 use sixfold::mapping::{ChartPoint, Coverage};
 use sixfold::math::{Real, Vec3, angle_rad};
 
@@ -33,7 +35,11 @@ pub fn by_direction(subject: &Subject) -> Vec<Finding> {
     let (double, double_weak) = by_direction_in::<f64>(subject);
     let Some(weak_budget) = subject.weak_budget() else {
         return vec![
-            Finding::new("f32, rad", single, 1.5e-6),
+            Finding::new(
+                "f32, rad",
+                single,
+                allowed(subject.map, SINGLE).max_round_trip_rad,
+            ),
             Finding::new("f64, rad", double, 5e-15),
         ];
     };
@@ -71,7 +77,11 @@ pub fn against_f64(subject: &Subject) -> Vec<Finding> {
     let budget = subject.weak_budget();
     match budget {
         None => vec![
-            Finding::new("f32 forward, rad", forward.0, 1e-6),
+            Finding::new(
+                "f32 forward, rad",
+                forward.0,
+                allowed(subject.map, SINGLE).max_forward_rad,
+            ),
             Finding::new("f32 inverse, rad", inverse.0, 7e-7),
         ],
         Some(budget) => vec![

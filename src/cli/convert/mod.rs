@@ -1,6 +1,5 @@
 //! `sixfold convert`: one environment map into another mapping, layout, size and format.
 
-mod bar;
 mod error;
 mod interrupt;
 mod names;
@@ -19,8 +18,8 @@ pub(super) use options::ConvertOptions;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
+use super::bar::Bar;
 use crate::imaging::{Environment, EnvironmentMap, OpenHints, Progress};
-use bar::Bar;
 use names::Name;
 use report::{Done, Printed};
 use source::Source;

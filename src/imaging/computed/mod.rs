@@ -6,7 +6,7 @@
 mod crosses;
 mod faces;
 mod graticule;
-mod strokes;
+pub(crate) mod strokes;
 
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};

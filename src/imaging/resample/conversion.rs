@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::ResampleError;
 use crate::imaging::{Channels, MapShape, SampleKind, Siting, Transfer};
 use crate::mapping::{Axes, Frame, Layout, MappingId};
+use crate::math::Isa;
 
 /// How a value between texels is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -99,17 +100,6 @@ pub struct Conversion {
     pub threads: usize,
     /// Instructions to use; `None`: the best that the processor has.
     pub isa: Option<Isa>,
-}
-
-/// Sets of instructions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Isa {
-    /// What every processor of the kind has (x86-64: SSE2).
-    Baseline,
-    /// x86-64-v3: AVX2 and fused multiply-add.
-    Avx2,
-    /// x86-64-v4: AVX-512.
-    Avx512,
 }
 
 impl Conversion {

@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use pulp::NullaryFnOnce;
 
-use super::conversion::{Conversion, Isa};
+use super::conversion::Conversion;
 use super::geometry::Geometry;
 use super::lookups::{Lookups, Places};
 use crate::mapping::{AngleLanes, DirLanes, LANES, Lane, Line, MappingId, PointLanes};
+use crate::math::Isa;
 use crate::math::floor_and_rest;
 
 /// Places for mappings that compute many directions at once.

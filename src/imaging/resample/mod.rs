@@ -37,12 +37,12 @@ mod pieces;
 mod plan;
 mod prefetch;
 mod report;
-mod simd;
 mod stored;
 mod strips;
 mod texels;
 
-pub use conversion::{Conversion, Filter, FilteredIn, Isa};
+pub use crate::math::Isa;
+pub use conversion::{Conversion, Filter, FilteredIn};
 pub use equal::{chart_size, equal_height, equal_rows, rotation_of_viewer};
 pub use levels::levels;
 pub use plan::{MOST_SIDE, Plan};

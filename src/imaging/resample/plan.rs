@@ -1,7 +1,7 @@
 //! What a conversion needs to know that depends on the shapes alone, and its runs.
 
 use super::ResampleError;
-use super::conversion::{Conversion, Filter, FilteredIn, Isa};
+use super::conversion::{Conversion, Filter, FilteredIn};
 use super::encode::Encoder;
 use super::filter::{Filtered, Sampler, reach};
 use super::fused::Fused;
@@ -20,6 +20,7 @@ use crate::imaging::{
     Channels, EnvironmentMap, MapShape, Progress, Raster, SampleKind, Samples, Stage, Transfer,
 };
 use crate::mapping::{Domain, Layout};
+use crate::math::Isa;
 
 /// Most texels along a side of a chart. Six of them beside each other are still counted in 32 bits with room to spare.
 pub const MOST_SIDE: u32 = 1 << 16;

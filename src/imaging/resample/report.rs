@@ -1,6 +1,7 @@
 //! What a conversion did, and what it could leave out.
 
-use super::conversion::{Filter, Isa};
+use super::conversion::Filter;
+use crate::math::Isa;
 
 /// Work that was not needed.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -96,32 +96,81 @@ pub(super) fn printed_eq6<R: Textbook>(dir: Vec3<R>) -> Option<ChartPoint<R>> {
 
 /// The listing of Appendix A word for word in f32, as the app's chart point. `None` where no row of its table matches
 /// (texture index 6, black): `bool(ceil(d))` is true for d = -1, so the middles of six edges have no face.
-pub(super) fn shader(dir: Vec3<f32>) -> Option<ChartPoint<f32>> {
+pub(in crate::mapping) fn shader(dir: Vec3<f32>) -> Option<ChartPoint<f32>> {
     let r = dir.scaled_direction()?.normalized();
     let l = 2f32.sqrt() / 2.0;
     let check = |x: f32, y: f32, z: f32| (x * r.x + y * r.y + z * r.z).ceil() != 0.0;
-    let [c1, c2] = [check(l, l, 0.0), check(-l, l, 0.0)];
-    let [c3, c4] = [check(0.0, l, l), check(0.0, l, -l)];
-    let [c5, c6] = [check(l, 0.0, l), check(-l, 0.0, l)];
-    let chart = if c1 && c2 && c3 && c4 {
-        2
+    let chart = matching_row([
+        check(l, l, 0.0),
+        check(-l, l, 0.0),
+        check(0.0, l, l),
+        check(0.0, l, -l),
+        check(l, 0.0, l),
+        check(-l, 0.0, l),
+    ])?;
+    Some(from_s_t(chart, r))
+}
+
+/// The listing with the checks put right (`> 0`), but each product fused into its sum as a compiler may choose: here the
+/// second where y takes part, else the first. Three roundings can then order x, y and z in a circle, and no row matches.
+pub(in crate::mapping) fn fused_shader(dir: Vec3<f32>) -> Option<ChartPoint<f32>> {
+    let r = dir.scaled_direction()?.normalized();
+    let l = 2f32.sqrt() / 2.0;
+    let chart = matching_row([
+        l.mul_add(r.y, l * r.x) > 0.0,
+        l.mul_add(r.y, -l * r.x) > 0.0,
+        l.mul_add(r.z, l * r.y) > 0.0,
+        (-l).mul_add(r.z, l * r.y) > 0.0,
+        l.mul_add(r.x, l * r.z) > 0.0,
+        (-l).mul_add(r.x, l * r.z) > 0.0,
+    ])?;
+    Some(from_s_t(chart, r))
+}
+
+/// Eq. 5 and Eq. 6 as they are printed, as the app's chart point.
+pub(in crate::mapping) fn printed(dir: Vec3<f32>) -> Option<ChartPoint<f32>> {
+    let ChartPoint { chart, u: s, v: t } = printed_eq6(dir)?;
+    Some(chart_point(CHART_OF_INDEX[chart as usize], s, t))
+}
+
+/// The chart whose row of the paper's table the six checks match.
+fn matching_row([c1, c2, c3, c4, c5, c6]: [bool; 6]) -> Option<u32> {
+    if c1 && c2 && c3 && c4 {
+        Some(2)
     } else if !c1 && !c2 && !c3 && !c4 {
-        3
+        Some(3)
     } else if c5 && c6 && c3 && !c4 {
-        4
+        Some(4)
     } else if !c5 && !c6 && !c3 && c4 {
-        5
+        Some(5)
     } else if !c5 && c6 && !c1 && c2 {
-        1
+        Some(1)
     } else if c5 && !c6 && c1 && !c2 {
-        0
+        Some(0)
     } else {
-        return None;
-    };
-    let Vec3 { x, y, z } = rotate(chart, r);
+        None
+    }
+}
+
+/// The chart point of a unit direction on a chart by the shader's formulas: Eq. 5, and Eq. 6 put right.
+pub(in crate::mapping) fn from_s_t(chart: u32, unit: Vec3<f32>) -> ChartPoint<f32> {
+    let Vec3 { x, y, z } = rotate(chart, unit);
     let s = 0.5 - (x / y).library_atan2(2f32.sqrt()) / (2.0 * (1.0 / 3f32.sqrt()).asin());
     let t = (1.0 + z.asin() / (1.0 / (2.0 + (x / y) * (x / y)).sqrt()).asin()) / 2.0;
-    Some(chart_point(chart, s, t))
+    chart_point(chart, s, t)
+}
+
+/// S and T of a chart point, and how its direction in the +y face is turned back.
+pub(in crate::mapping) fn to_s_t(
+    ChartPoint { chart, u, v }: ChartPoint<f32>,
+) -> (f32, f32, impl Fn(Vec3<f32>) -> Vec3<f32>) {
+    let (s, t) = match chart {
+        0 => (1.0 - v, 1.0 - u),
+        1 => (v, u),
+        5 => (u, 1.0 - v),
+        _ => (1.0 - u, v),
+    };
+    (s, t, move |dir| rotate_back(chart, dir))
 }
 
 /// The app's chart point of S and T on a chart.

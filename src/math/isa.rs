@@ -4,9 +4,21 @@ use pulp::NullaryFnOnce;
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
 
-use super::conversion::Isa;
+/// Sets of instructions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Isa {
+    /// What every processor of the kind has (x86-64: SSE2).
+    Baseline,
+    /// x86-64-v3: AVX2 and fused multiply-add.
+    Avx2,
+    /// x86-64-v4: AVX-512.
+    Avx512,
+}
 
 impl Isa {
+    /// All, the narrowest first.
+    pub const ALL: [Self; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
+
     /// The best that the processor has.
     #[cfg(target_arch = "x86_64")]
     pub fn best() -> Self {
@@ -42,7 +54,7 @@ impl Isa {
     /// Runs a loop that is compiled for these instructions, or for fewer where the processor lacks them. `work.call` and all
     /// that it calls must be inlined, else it is compiled for the baseline.
     #[inline(always)]
-    pub(super) fn run<W: NullaryFnOnce>(self, work: W) -> W::Output {
+    pub fn run<W: NullaryFnOnce>(self, work: W) -> W::Output {
         match self {
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 if let Some(v4) = V4::try_new() => v4.vectorize(work),

@@ -1,0 +1,16 @@
+//! The laboratory: what each way to compute a mapping costs, how far it errs, and where it breaks.
+//!
+//! An experiment is data: a mapping, one of its evaluators, a direction, inputs, instructions and threads. Speed is never
+//! told without error, nor error without speed.
+
+pub mod accuracy;
+pub mod bench;
+pub mod clock;
+pub mod drawing;
+pub mod front;
+pub mod inputs;
+pub mod machine;
+pub mod report;
+pub mod run;
+pub mod scatter;
+pub mod stress;

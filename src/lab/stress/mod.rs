@@ -1,0 +1,154 @@
+//! Where each way to compute a mapping breaks.
+
+pub mod budgets;
+pub mod families;
+mod judge;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+pub use budgets::{Expectation, allowed, expectations};
+pub use families::Family;
+
+use crate::imaging::{Progress, Stage};
+use crate::mapping::MappingId;
+use crate::mapping::evaluator::EvaluatorInfo;
+use judge::Subject;
+
+/// What is asked of an evaluator on a family of inputs; in a row of a report beside what is allowed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Measures {
+    /// Directions without a chart.
+    pub holes: u64,
+    /// Directions on another chart than in exact arithmetic, ties left out; of no directions those that got a chart.
+    pub wrong_chart: u64,
+    /// Coordinates outside of [0, 1].
+    pub out_of_range: u64,
+    /// Coordinates that are not finite numbers.
+    pub not_finite: u64,
+    /// Largest angle between a direction and what comes back, in radians.
+    pub max_round_trip_rad: f64,
+    /// Largest angle between a direction and that of its chart point, in radians.
+    pub max_forward_rad: f64,
+    /// Largest disagreement of the coordinate along a seam between its two sides, in texels of 1024 along a chart's height.
+    pub max_seam_jump_texels: f64,
+    /// Most ULP of f32 below 1 by which the coordinate along an edge of the cube steps back.
+    pub max_fall_ulp: f64,
+}
+
+/// The names of the measures, in order.
+pub const MEASURES: [&str; 8] = [
+    "holes",
+    "wrong_chart",
+    "out_of_range",
+    "not_finite",
+    "max_round_trip_rad",
+    "max_forward_rad",
+    "max_seam_jump_texels",
+    "max_fall_ulp",
+];
+
+impl Measures {
+    /// The numbers in the order of [`MEASURES`].
+    pub fn numbers(&self) -> [f64; 8] {
+        [
+            self.holes as f64,
+            self.wrong_chart as f64,
+            self.out_of_range as f64,
+            self.not_finite as f64,
+            self.max_round_trip_rad,
+            self.max_forward_rad,
+            self.max_seam_jump_texels,
+            self.max_fall_ulp,
+        ]
+    }
+}
+
+/// One evaluator on one family.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// Id of the mapping.
+    pub mapping: &'static str,
+    /// Id of the evaluator.
+    pub evaluator: &'static str,
+    /// `cpu`, or the adapter's name.
+    pub device: &'static str,
+    /// The inputs.
+    pub family: Family,
+    /// How many of them the mapping covers.
+    pub n: usize,
+    /// What was seen.
+    #[serde(flatten)]
+    pub observed: Measures,
+    /// The input of the worst case as the bits of three f32: what broke first, else the largest forward error.
+    pub worst: [String; 3],
+    /// What is allowed.
+    pub allowed: Measures,
+    /// The measures that are known to be worse than allowed, with the reason.
+    pub expected_fault: Option<String>,
+    /// Whether more is wrong than is allowed or expected, or something expected is not.
+    pub broken: bool,
+    /// What is wrong, in words.
+    pub fault: Option<String>,
+}
+
+/// How much is asked.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The mappings.
+    pub maps: Vec<MappingId>,
+    /// Inputs of each family, where they can be counted.
+    pub effort: usize,
+}
+
+impl Plan {
+    /// A few minutes on two cores.
+    pub fn full() -> Self {
+        Self {
+            maps: MappingId::ALL.to_vec(),
+            effort: 300_000,
+        }
+    }
+
+    /// Some seconds on two cores.
+    pub fn quick() -> Self {
+        Self {
+            effort: 10_000,
+            ..Self::full()
+        }
+    }
+}
+
+/// Asks one evaluator, in the list or not, on one family.
+pub fn ask(map: MappingId, evaluator: &EvaluatorInfo, family: Family, effort: usize) -> Row {
+    Subject::new(map, family, &family.inputs(effort), effort).row(evaluator)
+}
+
+/// Runs the plan on all cores; ends early, with what there is, when the progress is cancelled.
+pub fn stress(plan: &Plan, progress: &Progress) -> Vec<Row> {
+    progress.enter(Stage::Measuring);
+    let families = Family::ALL;
+    let inputs: Vec<_> = families.iter().map(|f| f.inputs(plan.effort)).collect();
+    let total = plan
+        .maps
+        .iter()
+        .map(|map| map.evaluators().len())
+        .sum::<usize>()
+        * families.len();
+    let done = AtomicUsize::new(0);
+    let mut rows = Vec::new();
+    for map in &plan.maps {
+        for (family, inputs) in families.iter().zip(&inputs) {
+            let subject = Subject::new(*map, *family, inputs, plan.effort);
+            let found = map.evaluators().par_iter().map(|evaluator| {
+                let row = (!progress.is_cancelled()).then(|| subject.row(evaluator));
+                progress.step(done.fetch_add(1, Ordering::Relaxed) + 1, total);
+                row
+            });
+            rows.extend(found.collect::<Vec<_>>().into_iter().flatten());
+        }
+    }
+    rows
+}
