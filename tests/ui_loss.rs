@@ -331,7 +331,7 @@ fn nothing_is_clipped_or_fails_when_tiny() {
             run(&mut ui, Action::SetMaximised(pane));
             if width >= 800.0 {
                 let residual = ui.get_by_label("Residual").rect();
-                let least = if pane.is_some() { 150.0 } else { 60.0 };
+                let least = if pane.is_some() { 120.0 } else { 60.0 };
                 assert!(residual.width() > least, "{residual:?} in {width}");
             }
         }

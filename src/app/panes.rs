@@ -98,7 +98,7 @@ fn insert(tree: &mut Tree<Pane>, pane: Pane) {
 /// Shows the tiles, or one pane alone.
 pub fn panes_ui(ui: &mut egui::Ui, model: &mut Model<'_>, tree: &mut Tree<Pane>) {
     if let Some(pane) = model.state.maximised {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             ui.strong(pane.name());
             if ui.button("Show all panels").clicked() {
                 model.push(Action::SetMaximised(None));
