@@ -387,7 +387,7 @@ fn hostile_scenes_open_mended_or_are_refused() {
         use std::os::unix::ffi::OsStrExt;
         let name = std::ffi::OsStr::from_bytes(b"sky\xff.hdr");
         let state = AppState {
-            environment: Environment::File(name.into()),
+            environment: Environment::File(std::path::PathBuf::from(name).into()),
             ..small()
         };
         let why = state.to_json().unwrap_err().to_string();

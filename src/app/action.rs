@@ -13,7 +13,8 @@ use super::arrangement::Pane;
 use super::figures::Figure;
 use super::probe;
 use super::state::{
-    AppState, CurvesState, EyeRay, InspectorState, Overlays, PanelState, StoryState, unit,
+    AppState, CurvesState, EyeRay, InspectorState, LossState, Overlays, PanelState, StoryState,
+    unit,
 };
 
 /// One change of the state.
@@ -47,6 +48,8 @@ pub enum Action {
     SetCurves(CurvesState),
     /// Show or hide the ray story, or go to one of its steps.
     SetStory(StoryState),
+    /// Show or hide the loss laboratory, or measure something else in it.
+    SetLoss(LossState),
     /// Turn the camera by these angles in radians.
     Orbit {
         /// To the right.
@@ -108,6 +111,7 @@ impl Action {
             Self::SetDensity(_) => Some(("density", None)),
             Self::SetMaterial(_) => Some(("material", None)),
             Self::SetStory(_) => Some(("story", None)),
+            Self::SetLoss(_) => Some(("loss", None)),
             Self::SetPanelView(view) => Some(("panel", Some(view.mapping))),
             _ => None,
         }
@@ -178,6 +182,10 @@ pub fn apply(state: &mut AppState, action: Action) {
                 state.probe_follows = false;
             }
             state.story = story;
+            state.show_alone(state.maximised);
+        }
+        Action::SetLoss(loss) => {
+            state.loss = loss.sanitized();
             state.show_alone(state.maximised);
         }
         Action::Orbit { dx_rad, dy_rad } => state.camera.orbit(dx_rad, dy_rad),

@@ -19,6 +19,8 @@ pub enum Pane {
     Curves,
     /// The ray story.
     Story,
+    /// What a conversion loses.
+    Loss,
 }
 
 impl Pane {
@@ -29,6 +31,7 @@ impl Pane {
             Self::Map(mapping) => mapping.info().name,
             Self::Curves => "Reflectance",
             Self::Story => "Ray story",
+            Self::Loss => "Loss laboratory",
         }
     }
 }

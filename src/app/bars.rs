@@ -6,7 +6,8 @@ use super::action::Action;
 use super::command::Command;
 use super::dialogs::{Dialog, PictureDialog, SaveDialog};
 use super::figures::Figure;
-use super::model::Model;
+use super::model::{JobLine, Model};
+use crate::imaging::Environment;
 
 /// The menus. Dialogs are opened by setting `dialog`.
 pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) {
@@ -14,6 +15,12 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
         ui.menu_button("File", |ui| {
             if ui.button("Open …   Ctrl+O").clicked() {
                 *dialog = Some(Dialog::Open(String::new()));
+                ui.close();
+            }
+            if let Environment::File(file) = &model.state.environment
+                && ui.button("How the environment is read …").clicked()
+            {
+                *dialog = Some(Dialog::Reading(file.clone()));
                 ui.close();
             }
             if ui.button("Save the scene …   Ctrl+S").clicked() {
@@ -65,6 +72,10 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
             let mut story = model.state.story;
             if ui.checkbox(&mut story.open, "Ray story").changed() {
                 model.push(Action::SetStory(story));
+            }
+            let mut loss = model.state.loss;
+            if ui.checkbox(&mut loss.open, "Loss laboratory").changed() {
+                model.push(Action::SetLoss(loss));
             }
             if ui.button("Reset the view   R").clicked() {
                 model.push(Action::ResetCamera);
@@ -125,6 +136,18 @@ const HELP: &[(&str, &str)] = &[
     ("R", "reset the view"),
 ];
 
+/// "42 %, 3 s left".
+fn progress_text(job: &JobLine) -> String {
+    let percent = format!("{:.0} %", 100.0 * job.fraction);
+    match job.left.map(|left| left.as_secs_f32().ceil()) {
+        Some(seconds) if seconds > 90.0 => {
+            format!("{percent}, {:.0} min left", (seconds / 60.0).ceil())
+        }
+        Some(seconds) => format!("{percent}, {seconds:.0} s left"),
+        None => percent,
+    }
+}
+
 /// Jobs, the frame plan and the counters.
 pub fn status_ui(ui: &mut Ui, model: &mut Model<'_>) {
     super::dialogs::messages_ui(ui, model);
@@ -133,8 +156,8 @@ pub fn status_ui(ui: &mut Ui, model: &mut Model<'_>) {
             ui.label(RichText::new(&job.title).small());
             ui.add(
                 ProgressBar::new(job.fraction)
-                    .desired_width(90.0)
-                    .show_percentage(),
+                    .desired_width(130.0)
+                    .text(RichText::new(progress_text(job)).small()),
             );
             if ui.small_button("Cancel").clicked() {
                 model.commands.push(Command::Cancel(job.id));
@@ -161,4 +184,29 @@ pub fn status_ui(ui: &mut Ui, model: &mut Model<'_>) {
             );
         });
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn a_job_says_how_long_it_will_take() {
+        let line = |fraction, left| {
+            progress_text(&JobLine {
+                id: 1,
+                title: String::new(),
+                fraction,
+                left,
+            })
+        };
+        assert_eq!(line(0.0, None), "0 %");
+        assert_eq!(
+            line(0.42, Some(Duration::from_millis(2100))),
+            "42 %, 3 s left"
+        );
+        assert_eq!(line(0.5, Some(Duration::from_secs(91))), "50 %, 2 min left");
+    }
 }

@@ -6,7 +6,7 @@ use super::action::Action;
 use super::dialogs::Dialog;
 use super::export::Export;
 use super::picture::PictureRequest;
-use crate::imaging::Environment;
+use crate::imaging::{Environment, MapFile};
 
 /// One wish of the user.
 #[derive(Clone, Debug)]
@@ -19,6 +19,8 @@ pub enum Command {
     Redo,
     /// Load surroundings in a job; the state changes when they are there.
     LoadEnvironment(Environment),
+    /// Load the map of a file as the dialog that is shown has it, in a job.
+    LoadFile(MapFile),
     /// Show a dialog in the window.
     ShowDialog(Dialog),
     /// Ask for the path of the dialog that is shown, in a dialog of the system.
@@ -38,6 +40,8 @@ pub enum Command {
     Export(Box<Export>),
     /// Stop a running job.
     Cancel(u64),
+    /// Measure again what was given up.
+    MeasureLoss,
     /// Take a message away.
     Dismiss(usize),
     /// Put text on the clipboard.

@@ -125,6 +125,14 @@ fn scene_ui(ui: &mut Ui, model: &mut Model<'_>) {
     if ui.button("Open a file …").clicked() {
         model.push(Command::ShowDialog(Dialog::Open(String::new())));
     }
+    if let Environment::File(file) = now
+        && ui
+            .button("How it is read …")
+            .on_hover_text("Mapping, layout and which way round the file is")
+            .clicked()
+    {
+        model.push(Command::ShowDialog(Dialog::Reading(file.clone())));
+    }
     if let Some(text) = model.surroundings.and_then(|s| s.bad_texels().summary()) {
         ui.label(RichText::new(text).small().color(super::theme::TEXEL));
     }

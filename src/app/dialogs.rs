@@ -10,6 +10,8 @@ use super::export::Export;
 use super::export_dialog::export_ui;
 use super::model::Model;
 use super::picture::{Destination, MAX_SIDE, PictureRequest, What};
+use super::reading_dialog::{reading_ui, reading_width};
+use crate::imaging::MapFile;
 use crate::mapping::MappingId;
 use crate::optics::Material;
 use crate::optics::material::{BallPicture, Surface, View};
@@ -27,6 +29,8 @@ pub enum Dialog {
     Picture(PictureDialog),
     /// The environment for another program.
     Export(Box<Export>),
+    /// How the map in a file is read.
+    Reading(MapFile),
 }
 
 /// The fields of the dialog that saves the scene.
@@ -48,21 +52,24 @@ impl Default for SaveDialog {
 }
 
 impl Dialog {
-    /// The path that is typed.
-    pub fn path_mut(&mut self) -> &mut String {
-        match self {
+    /// The path that is typed, where one is.
+    pub fn path_mut(&mut self) -> Option<&mut String> {
+        Some(match self {
             Self::Open(path) | Self::OpenBall(path) => path,
             Self::SaveScene(fields) => &mut fields.path,
             Self::Picture(fields) => &mut fields.path,
             Self::Export(export) => &mut export.path,
-        }
+            Self::Reading(_) => return None,
+        })
     }
 
     /// The same dialog with the path that was chosen in the system's dialog, which has asked about replacing already.
     pub fn with_chosen(mut self, path: &std::path::Path) -> Self {
-        *self.path_mut() = path.display().to_string();
+        if let Some(typed) = self.path_mut() {
+            *typed = path.display().to_string();
+        }
         match &mut self {
-            Self::Open(_) | Self::OpenBall(_) => {}
+            Self::Open(_) | Self::OpenBall(_) | Self::Reading(_) => {}
             Self::SaveScene(fields) => fields.force = true,
             Self::Picture(fields) => fields.force = true,
             Self::Export(export) => export.force = true,
@@ -103,13 +110,17 @@ pub fn dialog_ui(ctx: &egui::Context, model: &mut Model<'_>, dialog: &mut Option
     let Some(open) = dialog else { return };
     let mut close = false;
     let response = Modal::new(egui::Id::unique("dialog")).show(ctx, |ui| {
-        ui.set_width(430.0);
+        ui.set_width(match open {
+            Dialog::Reading(_) => reading_width(ui),
+            _ => 430.0,
+        });
         close = match open {
             Dialog::Open(path) => open_ui(ui, model, path),
             Dialog::OpenBall(path) => open_ball_ui(ui, model, path),
             Dialog::SaveScene(fields) => save_ui(ui, model, fields),
             Dialog::Picture(fields) => picture_ui(ui, model, fields),
             Dialog::Export(export) => export_ui(ui, model, export),
+            Dialog::Reading(file) => reading_ui(ui, model, file),
         };
     });
     if close || response.should_close() {

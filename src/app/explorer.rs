@@ -16,20 +16,27 @@ use super::files::Opened;
 use super::frame::frame_of;
 use super::history::History;
 use super::job::Job;
+use super::loss::LossLab;
 use super::model::{Message, Model, Surroundings};
 use super::object::{Jobs, ObjectData};
+use super::pace::Paces;
 use super::panes;
 use super::picture;
+use super::reading::{Reading, Refusal};
 use super::state::{AppState, unit};
 use super::texel_color::{TexelColor, TexelKey};
 use super::views::{ViewKey, Views};
 use super::{bars, controls, inspector, keys, story, viewport};
 use crate::gpu::{Gpu, Renderer};
+use crate::imaging::Environment;
 
 use jobs::{Errand, Ready};
 
 /// A dialog of the system that has not been answered: what it asks for, and the file when there is one.
 type Asked = (Dialog, Job<Option<PathBuf>>);
+
+/// Surroundings, and how their file was read.
+type Loading = (Ready, Option<String>);
 
 /// Everything behind the window.
 pub struct Explorer {
@@ -40,14 +47,17 @@ pub struct Explorer {
     views: Views,
     tree: egui_tiles::Tree<Pane>,
     object: ObjectData,
+    loss: LossLab,
+    sees_loss: bool,
     surroundings: Option<Surroundings>,
-    loading: Option<Job<Result<Ready, String>>>,
+    loading: Option<Job<Result<Loading, Refusal>>>,
     opening: Option<Job<Result<Opened, String>>>,
     /// Jobs that end in a message, and perhaps in a picture for the clipboard.
     errands: Vec<Job<Result<Errand, String>>>,
     asked: Option<Asked>,
-    /// Texels a second that the last export made.
-    export_rate: Option<f64>,
+    /// The file of the dialog about how it is read.
+    reading: Option<Reading>,
+    paces: Paces,
     messages: Vec<Message>,
     dialog: Option<Dialog>,
     next_job: u64,
@@ -76,12 +86,15 @@ impl Explorer {
             tree: panes::tree_of(&state),
             object: ObjectData::new(&state),
             history: History::default(),
+            loss: LossLab::default(),
+            sees_loss: false,
             surroundings: None,
             loading: None,
             opening: None,
             errands: Vec::new(),
             asked: None,
-            export_rate: None,
+            reading: None,
+            paces: Paces::default(),
             messages: Vec::new(),
             dialog: None,
             next_job: 1,
@@ -104,6 +117,11 @@ impl Explorer {
         &self.state
     }
 
+    /// The surroundings that are shown; `None` until the first ones are there.
+    pub fn surroundings(&self) -> Option<&Surroundings> {
+        self.surroundings.as_ref()
+    }
+
     /// Frames drawn so far.
     pub fn frames(&self) -> u64 {
         self.frames
@@ -117,6 +135,11 @@ impl Explorer {
     /// The messages that are shown.
     pub fn messages(&self) -> &[Message] {
         &self.messages
+    }
+
+    /// What the loss laboratory has measured.
+    pub fn loss(&self) -> &LossLab {
+        &self.loss
     }
 
     /// What the renderer did last.
@@ -133,9 +156,12 @@ impl Explorer {
     pub fn is_busy(&self) -> bool {
         self.pending
             || self.object.is_busy()
+            || self.loss.is_busy()
+            || self.paces.is_busy()
             || self.loading.is_some()
             || self.opening.is_some()
             || !self.errands.is_empty()
+            || self.reading.as_ref().is_some_and(|r| r.job().is_some())
     }
 
     /// Shows surroundings that are there already, without a job; `complete` asks for every map at once from now on.
@@ -200,6 +226,8 @@ impl Explorer {
             self.run(&ctx, command);
         }
         self.draw_views(&ctx, &laid_out);
+        self.measure_loss(&ctx);
+        self.measure_pace(&ctx);
         // What was just changed is seen in the next frame; a still window asks for none.
         let draws_on = self.pending && !self.waits;
         if (any && before != self.state) || draws_on || self.texel_color.is_waiting() {
@@ -236,12 +264,15 @@ impl Explorer {
             target: self.object.target(),
             surroundings: self.surroundings.as_ref(),
             story: story::steps_if_open(&self.state, self.object.target()),
+            loss: &self.loss,
+            sees_loss: false,
             texel_color: self.probed,
             plan: &self.plan,
             frames: self.frames,
             adapter: &adapter,
             jobs: &jobs,
-            export_rate: self.export_rate,
+            paces: &self.paces,
+            reading: self.reading.as_ref(),
             messages: &self.messages,
             gpu: &self.gpu,
             views: &mut self.views,
@@ -249,7 +280,9 @@ impl Explorer {
             laid_out: Vec::new(),
         };
         show(&mut model);
-        (model.commands, model.laid_out)
+        let (commands, laid_out, sees_loss) = (model.commands, model.laid_out, model.sees_loss);
+        self.sees_loss = sees_loss;
+        (commands, laid_out)
     }
 
     /// Brings the textures of the views that are seen up to date, and nothing else.
@@ -328,6 +361,11 @@ impl Explorer {
                 }
             }
             Command::LoadEnvironment(environment) => self.load(ctx, environment),
+            Command::LoadFile(file) => {
+                let pictures = self.reading.as_ref().filter(|reading| reading.is_of(&file));
+                let pictures = pictures.and_then(|reading| reading.pictures().cloned());
+                self.load_from(ctx, Environment::File(file), pictures);
+            }
             Command::ShowDialog(dialog) => self.dialog = Some(dialog),
             Command::Browse => {
                 if let Some(dialog) = self.dialog.clone() {
@@ -339,6 +377,7 @@ impl Explorer {
             Command::MakePicture(request) => self.make_picture(ctx, request),
             Command::Export(export) => self.export(ctx, *export),
             Command::Cancel(id) => self.cancel(id),
+            Command::MeasureLoss => self.loss.try_again(),
             Command::Dismiss(index) => {
                 if index < self.messages.len() {
                     self.messages.remove(index);

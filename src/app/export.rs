@@ -1,21 +1,21 @@
 //! The environment into a file that another program loads: what is wanted of it, how large it gets, and the making of it.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
+use crate::imaging::atomic::check_name;
 use crate::imaging::load::{EnvmapKind, Format};
-use crate::imaging::resample::{Conversion, chart_size, levels, resample};
-use crate::imaging::save::{Content, SaveOptions, save};
+use crate::imaging::resample::{Conversion, Filter, chart_size, equal_rows, levels, resample};
+use crate::imaging::save::{Content, SaveError, SaveOptions, encode, save};
 use crate::imaging::{
-    Channels, Container, EnvironmentMap, Image, Progress, Raster, SampleKind, Samples, Stored,
-    Transfer,
+    Channels, Container, Environment, EnvironmentMap, Image, MapShape, OpenHints, Progress,
+    SampleKind, Siting, Stored, Transfer, face_name,
 };
 use crate::mapping::{Frame, Layout, MappingId};
 use crate::math::Rotation;
 
 /// What stands in the name of six files for the name of each.
 pub const FACE: &str = "%f";
-/// The six names, in the order of the pictures.
-const FACE_NAMES: [&str; 6] = ["px", "nx", "py", "ny", "pz", "nz"];
 
 /// A program, and the file that it likes best.
 #[derive(Clone, Copy, Debug)]
@@ -85,6 +85,10 @@ pub struct Export {
     pub has_levels: bool,
     /// Levels are compressed.
     pub zstd: bool,
+    /// How values between texels are found; `None`: the one that suits, as [`Conversion::filter`].
+    pub filter: Option<Filter>,
+    /// Noise of one step hides steps; for whole numbers only.
+    pub dither: bool,
     /// How the environment is turned.
     pub rotation: Rotation,
     /// The file's path; of six files, with [`FACE`] in its name.
@@ -104,6 +108,8 @@ impl Default for Export {
             height: 512,
             has_levels: false,
             zstd: false,
+            filter: None,
+            dither: false,
             rotation: Rotation::NONE,
             path: "environment.exr".to_owned(),
             force: false,
@@ -176,6 +182,7 @@ impl Export {
         }
         self.has_levels &= is_container;
         self.zstd &= self.format == Format::Ktx2;
+        self.dither &= self.can_dither();
         let known = |id: &&str| Frame::from_id(id).is_ok_and(|frame| frame.knows(self.mapping));
         self.frame = self.frame.filter(known);
         if let Some((_, ending)) = FORMATS.iter().find(|(format, _)| *format == self.format) {
@@ -192,6 +199,23 @@ impl Export {
         }
     }
 
+    /// Whether samples are whole numbers, whose steps noise can hide.
+    pub fn can_dither(&self) -> bool {
+        self.stored.kind() != SampleKind::F32
+    }
+
+    /// What OpenEXR's attribute says of the file, where it says anything: that its axes are OpenEXR's.
+    fn envmap(&self) -> Option<EnvmapKind> {
+        if self.format != Format::Exr || self.frame != Some("openexr") {
+            return None;
+        }
+        match (self.mapping, self.layout) {
+            (MappingId::Latlong, _) => Some(EnvmapKind::Latlong),
+            (MappingId::Cube, Layout::Column) => Some(EnvmapKind::Cube),
+            _ => None,
+        }
+    }
+
     /// A file for each chart.
     pub fn is_six_files(&self) -> bool {
         self.layout == Layout::Faces && !self.format.is_container()
@@ -199,7 +223,7 @@ impl Export {
 
     /// Texels of all charts, levels included.
     pub fn texels(&self) -> u64 {
-        let [width, height] = chart_size(self.mapping, self.height);
+        let [width, height] = self.size();
         let [columns, rows] = self.layout.grid();
         let cells = match self.layout {
             Layout::Faces => u64::from(self.mapping.info().chart_count()),
@@ -227,8 +251,8 @@ impl Export {
         self.zstd || !self.format.is_container()
     }
 
-    /// The words of the equal command line; `input` is the environment's id.
-    pub fn command_line(&self, input: &str) -> String {
+    /// The words of the equal command line; `input` is the environment's id, `hints` how it is read.
+    pub fn command_line(&self, input: &str, hints: &OpenHints) -> String {
         let mut words = vec![
             "sixfold".to_owned(),
             "convert".to_owned(),
@@ -239,6 +263,9 @@ impl Export {
             words.push(name.to_owned());
             words.extend(value.map(quoted));
         };
+        for (name, value) in hints.options() {
+            add(name, value.as_deref());
+        }
         add("--to", Some(self.mapping.info().id));
         add("--size", Some(&self.height.to_string()));
         if self.layout != Layout::Faces {
@@ -250,12 +277,17 @@ impl Export {
         if !self.rotation.is_none() {
             add("--rotate", Some(&self.rotation.to_string()));
         }
+        if let Some(filter) = self.filter {
+            add("--filter", Some(filter.id()));
+        }
         if let Some(depth) = kind_names(self.stored).1 {
             add("--depth", Some(depth));
         }
         for (name, is_wanted) in [
+            ("--dither", self.dither),
             ("--mips", self.has_levels),
             ("--zstd", self.zstd),
+            ("--envmap", self.envmap().is_some()),
             ("--force", self.force),
         ] {
             if is_wanted {
@@ -265,45 +297,80 @@ impl Export {
         words.join(" ")
     }
 
-    fn conversion(&self, source: &EnvironmentMap) -> Result<Conversion, String> {
-        let size = chart_size(self.mapping, self.height);
-        let samples = self.stored.kind();
+    /// The same as `sixfold convert` makes of [`Export::command_line`].
+    fn conversion(&self, source: &MapShape) -> Result<Conversion, String> {
         let frame = self.frame.map(Frame::from_id).transpose();
+        let frame = frame.map_err(|error| error.to_string())?;
+        let samples = self.stored.kind();
+        let is_opaque = matches!(self.format, Format::Hdr | Format::Jpeg);
+        let plain = Conversion::new(self.mapping, self.size(), source);
         Ok(Conversion {
             layout: self.layout,
             rotation: self.rotation.source_from_world(),
-            frame: frame.map_err(|error| error.to_string())?,
+            frame,
+            siting: match frame {
+                Some(frame) if frame.is_edge_sited => Siting::Edge,
+                _ => Siting::Centre,
+            },
+            filter: self.filter,
+            dither: self.dither,
             samples,
             transfer: match samples {
                 SampleKind::F32 => Transfer::Linear,
                 SampleKind::U8 | SampleKind::U16 => Transfer::Srgb,
             },
-            channels: Channels::Rgb,
-            ..Conversion::new(self.mapping, size, source.shape())
+            channels: if is_opaque || self.stored == Stored::Rgb9e5 {
+                Channels::Rgb
+            } else {
+                source.channels
+            },
+            ..plain
         })
     }
 
-    /// Converts the latlong picture and writes the file, or the six files.
+    /// Texels of a chart.
+    fn size(&self) -> [u32; 2] {
+        chart_size(self.mapping, self.height)
+    }
+
+    /// Converts the environment and writes the file, or the six files.
     ///
     /// # Errors
     /// One line that says what failed; the file is not there then, unless it was before.
-    pub fn write(&self, image: &Image, progress: &Progress) -> Result<(), String> {
-        let said = |error: &dyn std::fmt::Display| error.to_string();
-        let source = latlong(image)?;
-        let conversion = self.conversion(&source)?;
-        let (map, _) = resample(&source, &conversion, progress).map_err(|e| said(&e))?;
-        drop(source);
-        let options = SaveOptions {
+    pub fn write(&self, environment: &Environment, progress: &Progress) -> Result<(), String> {
+        for path in self.paths() {
+            check_name(&path, self.force).map_err(|error| error.to_string())?;
+        }
+        let rows = equal_rows(MappingId::Latlong, self.mapping, self.size());
+        let source = environment.map(rows, progress);
+        let (source, _) = source.map_err(|error| error.to_string())?;
+        let options = self.save_options();
+        self.make(source, progress, |index, content| {
+            let path = &self.paths()[index];
+            save(path, self.force, content, self.format, &options, progress)
+        })
+    }
+
+    fn save_options(&self) -> SaveOptions {
+        SaveOptions {
             stored: Some(self.stored),
             zstd: self.zstd,
-            envmap: (self.format == Format::Exr && self.mapping == MappingId::Latlong)
-                .then_some(EnvmapKind::Latlong)
-                .filter(|_| self.frame == Some("openexr")),
+            envmap: self.envmap(),
             ..SaveOptions::default()
-        };
-        let put = |path: &Path, content: Content<'_>| {
-            save(path, self.force, content, self.format, &options, progress).map_err(|e| said(&e))
-        };
+        }
+    }
+
+    /// Converts `source` and gives what each file holds to `put`, with the file's index in [`Export::paths`].
+    fn make(
+        &self,
+        source: EnvironmentMap,
+        progress: &Progress,
+        mut put: impl FnMut(usize, Content<'_>) -> Result<(), SaveError>,
+    ) -> Result<(), String> {
+        let said = |error: &dyn std::fmt::Display| error.to_string();
+        let conversion = self.conversion(source.shape())?;
+        let (map, _) = resample(&source, &conversion, progress).map_err(|e| said(&e))?;
+        drop(source);
         if self.format.is_container() {
             let maps = if self.has_levels {
                 levels(map, &conversion, progress).map_err(|e| said(&e))?
@@ -311,21 +378,51 @@ impl Export {
                 vec![map]
             };
             let container = Container::of_maps(maps, self.stored, self.format);
-            return put(Path::new(&self.path), Content::Container(&container));
+            return put(0, Content::Container(&container)).map_err(|e| said(&e));
         }
-        for (raster, path) in map.rasters().iter().zip(self.paths()) {
-            put(&path, Content::Raster(raster))?;
+        for (index, raster) in map.rasters().iter().enumerate() {
+            put(index, Content::Raster(raster)).map_err(|e| said(&e))?;
         }
         Ok(())
+    }
+
+    /// Texels a second at which such an export is made here, found by making a small one in memory. Its texels cover as many
+    /// of the picture's as those of the whole one, so that the filter has as much to do.
+    ///
+    /// # Errors
+    /// As [`Export::write`], for what the small one shares with the whole one.
+    pub fn measured_rate(&self, image: &Image, progress: &Progress) -> Result<f64, String> {
+        /// Texels of the small one: a few hundredths of a second's work, so that starting threads weighs little.
+        const TEXELS: f64 = 4e5;
+        /// Runs, of which the fastest counts: what else the machine does only makes them slower.
+        const RUNS: usize = 2;
+        let stride = (self.texels() as f64 / TEXELS).sqrt().ceil().max(1.0) as u32;
+        let small = Self {
+            height: (self.height / stride).max(1),
+            ..self.clone()
+        };
+        let thin = thinned(image, stride).ok_or("the environment has no texels")?;
+        let options = small.save_options();
+        let mut least = f64::INFINITY;
+        for _ in 0..RUNS {
+            let source = EnvironmentMap::of_latlong(&thin).map_err(|error| error.to_string())?;
+            let start = Instant::now();
+            small.make(source, progress, |_, content| {
+                encode(content, small.format, &options, progress).map(drop)
+            })?;
+            least = least.min(start.elapsed().as_secs_f64());
+        }
+        Ok(small.texels() as f64 / least)
     }
 
     /// The files that are written.
     pub fn paths(&self) -> Vec<PathBuf> {
         if self.is_six_files() {
-            let count = self.mapping.info().chart_count() as usize;
-            let names = FACE_NAMES.iter().take(count);
-            names
-                .map(|name| PathBuf::from(self.path.replace(FACE, name)))
+            let charts = self.mapping.info().charts.iter();
+            let path = Path::new(&self.path);
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            charts
+                .map(|chart| path.with_file_name(name.replace(FACE, &face_name(chart))))
                 .collect()
         } else {
             vec![PathBuf::from(&self.path)]
@@ -333,18 +430,16 @@ impl Export {
     }
 }
 
-/// The picture as an environment map.
-fn latlong(image: &Image) -> Result<EnvironmentMap, String> {
-    let samples = Samples::F32(image.pixels().as_flattened().to_vec());
-    let size = [image.width(), image.height()];
-    let raster = Raster::new(size, Channels::Rgb, Transfer::Linear, samples);
-    let raster = raster.ok_or_else(|| "the environment has no texels".to_owned())?;
-    EnvironmentMap::from_layout(MappingId::Latlong, Layout::Single, vec![raster])
-        .map_err(|error| error.to_string())
+/// Every `stride`-th texel of every `stride`-th row; `None` when none is left.
+fn thinned(image: &Image, stride: u32) -> Option<Image> {
+    let [columns, rows] = [image.width(), image.height()].map(|n| n / stride);
+    let texels = (0..rows)
+        .flat_map(|y| (0..columns).filter_map(move |x| image.texel(x * stride, y * stride)));
+    Image::new(columns, rows, texels.collect()).ok()
 }
 
 /// A word as a shell reads it.
-fn quoted(word: &str) -> String {
+pub(super) fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./,%+:=".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
         word.to_owned()
@@ -372,9 +467,18 @@ mod tests {
         bevy.set_preset(&Preset::ALL[1]);
         bevy.rotation = Rotation::from_degrees([90.0, 0.0, -15.0]);
         assert_eq!(
-            bevy.command_line("my sky.hdr"),
+            bevy.command_line("my sky.hdr", &OpenHints::default()),
             "sixfold convert 'my sky.hdr' environment.ktx2 --to cube --size 512 --to-frame bevy --rotate 90,0,-15 \
              --depth half --mips"
+        );
+        let hints = OpenHints {
+            mapping: Some(MappingId::Octahedral),
+            ..OpenHints::default()
+        };
+        let line = bevy.command_line("sky.exr", &hints);
+        assert!(
+            line.contains("environment.ktx2 --from octahedral --to cube"),
+            "{line}"
         );
         // 512 x 512 x 6 of 8 bytes, and a third more.
         assert_eq!(bevy.bytes(), 512 * 512 * 6 * 4 / 3 * 8);

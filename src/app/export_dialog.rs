@@ -6,12 +6,13 @@ use super::command::Command;
 use super::dialogs::{buttons_ui, path_ui};
 use super::export::{Export, FORMATS, Preset, kind_names, kinds};
 use super::model::Model;
+use super::pace::Pace;
 use crate::imaging::load::Format;
-use crate::imaging::resample::{MOST_SIDE, chart_size};
+use crate::imaging::resample::{Filter, MOST_SIDE, chart_size};
 use crate::mapping::{Frame, Layout, MappingId};
 
 /// A row of the form: a name and a list to choose from.
-fn row_ui<T: PartialEq + Clone>(
+pub(super) fn row_ui<T: PartialEq + Clone>(
     ui: &mut Ui,
     label: &str,
     now: &mut T,
@@ -57,8 +58,8 @@ pub fn export_ui(ui: &mut Ui, model: &mut Model<'_>, export: &mut Export) -> boo
         model.push(Command::Browse);
     }
     ui.checkbox(&mut export.force, "replace the file if it exists");
-    ui.label(estimate(export, model.export_rate));
-    let line = export.command_line(&input);
+    ui.label(estimate(export, model.paces.of(export)));
+    let line = export.command_line(&input, &model.state.environment.hints());
     ui.horizontal(|ui| {
         if ui.button("Copy the line").clicked() {
             model.push(Command::CopyText(line.clone()));
@@ -76,7 +77,7 @@ fn form_ui(ui: &mut Ui, export: &mut Export) {
     let mut changed = row_ui(ui, "mapping", &mut export.mapping, MappingId::ALL, info);
     let knows = Frame::ALL
         .iter()
-        .filter(|frame| frame.knows(export.mapping));
+        .filter(|frame| frame.knows(export.mapping) && !frame.is_ours);
     let frames: Vec<Option<&'static str>> = std::iter::once(None)
         .chain(knows.map(|frame| Some(frame.id)))
         .collect();
@@ -105,6 +106,13 @@ fn form_ui(ui: &mut Ui, export: &mut Export) {
     changed |= row_ui(ui, "samples", &mut export.stored, kind, |stored| {
         kind_names(*stored).0.to_owned()
     });
+    let filters: Vec<Option<Filter>> = std::iter::once(None).chain(Filter::ALL.map(Some)).collect();
+    let filter_name = |filter: &Option<Filter>| {
+        filter
+            .map_or("area if coarser, else bicubic", Filter::id)
+            .to_owned()
+    };
+    row_ui(ui, "filter", &mut export.filter, &filters, filter_name);
     let label = ui.label("rows of a chart");
     ui.horizontal(|ui| {
         let rows = DragValue::new(&mut export.height).range(1..=MOST_SIDE.min(8192));
@@ -122,6 +130,9 @@ fn form_ui(ui: &mut Ui, export: &mut Export) {
         ui.add_enabled_ui(export.format == Format::Ktx2, |ui| {
             ui.checkbox(&mut export.zstd, "compressed (zstd)");
         });
+        ui.add_enabled_ui(export.can_dither(), |ui| {
+            ui.checkbox(&mut export.dither, "dithered");
+        });
     });
     ui.end_row();
     if changed {
@@ -129,20 +140,26 @@ fn form_ui(ui: &mut Ui, export: &mut Export) {
     }
 }
 
-/// Size and time in words; `rate` is in texels a second.
-fn estimate(export: &Export, rate: Option<f64>) -> String {
+/// Size and time in words.
+fn estimate(export: &Export, pace: Pace) -> String {
     let megabytes = export.bytes() as f64 / 1e6;
     let most = if export.is_compressed() {
         "at most"
     } else {
         "about"
     };
-    let time = match rate {
-        Some(rate) => {
-            let seconds = export.texels() as f64 / rate;
-            format!("about {seconds:.1} s at the rate of the last export")
+    let about = |rate: f64| {
+        let seconds = export.texels() as f64 / rate;
+        if seconds < 0.1 {
+            "less than 0.1 s".to_owned()
+        } else {
+            format!("about {seconds:.1} s")
         }
-        None => "the first export measures this machine's rate".to_owned(),
+    };
+    let time = match pace {
+        Pace::Measured(rate) => format!("{}, judging by a small one", about(rate)),
+        Pace::OfLast(rate) => format!("{} at the rate of the last export", about(rate)),
+        Pace::Unknown => "a small one is being timed".to_owned(),
     };
     format!("{most} {megabytes:.2} MB; {time}")
 }

@@ -84,7 +84,7 @@ pub fn open_scene(path: &Path) -> Result<AppState, String> {
 }
 
 fn environment(path: &Path) -> Opened {
-    Opened::Environment(Environment::File(absolute(path)))
+    Opened::Environment(Environment::File(absolute(path).into()))
 }
 
 /// A path of its own: a scene that is opened from elsewhere must find the file again.
@@ -127,6 +127,7 @@ pub fn ask(dialog: &Dialog) -> Option<PathBuf> {
             .pick_file(),
         Dialog::Export(export) => files.set_file_name(&export.path).save_file(),
         Dialog::SaveScene(_) => files.set_file_name(SaveDialog::default().path).save_file(),
+        Dialog::Reading(_) => None,
         Dialog::Picture(_) => files
             .set_file_name(PictureDialog::default().path)
             .save_file(),

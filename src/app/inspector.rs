@@ -133,7 +133,8 @@ fn bad_original(
     let image = &surroundings.loaded.image;
     let (x, y) = image.texel_at(point.u, point.v);
     let [r, g, b] = surroundings.loaded.originals.get(image.index(x, y)?)?;
-    Some(format!("{r}  {g}  {b}"))
+    // Exact digits would make the inspector as wide as the longest.
+    Some(format!("{r:.2e}  {g:.2e}  {b:.2e}"))
 }
 
 /// Directions of interest: centres, edges' middles and corners of the cube, where ties are.

@@ -46,7 +46,7 @@ pub fn map_panel_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
 }
 
 /// What the pointer does: finds directions, pans and zooms.
-fn pointer(
+pub(super) fn pointer(
     ui: &Ui,
     model: &mut Model<'_>,
     view: PanelState,
@@ -91,7 +91,7 @@ fn pointer(
 }
 
 /// The name of each chart in its corner.
-fn paint_chart_names(painter: &egui::Painter, mapping: MappingId, window: &PanelWindow) {
+pub(super) fn paint_chart_names(painter: &egui::Painter, mapping: MappingId, window: &PanelWindow) {
     let info = mapping.info();
     if info.layout == Layout::Single {
         return;
@@ -106,7 +106,7 @@ fn paint_chart_names(painter: &egui::Painter, mapping: MappingId, window: &Panel
 }
 
 /// Where a direction lies on the screen.
-fn place_of(mapping: MappingId, dir: Vec3<f64>, window: &PanelWindow) -> Option<Pos2> {
+pub(super) fn place_of(mapping: MappingId, dir: Vec3<f64>, window: &PanelWindow) -> Option<Pos2> {
     let place = mapping
         .forward(dir)
         .and_then(|p| mapping.info().layout.picture_from_chart(p))?;
@@ -131,7 +131,7 @@ fn paint_story(
 }
 
 /// The probe's face, its texel and itself; grey where the map has no texel of its own for the direction.
-fn paint_probe(
+pub(super) fn paint_probe(
     painter: &egui::Painter,
     model: &Model<'_>,
     mapping: MappingId,

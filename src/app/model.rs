@@ -1,6 +1,7 @@
 //! What the panels see: the state and what was made of it. They change nothing; they push commands.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use crate::imaging::{BadTexels, Environment, Loaded};
 use crate::mapping::MappingId;
@@ -8,6 +9,9 @@ use crate::scene::Target;
 
 use super::command::Command;
 use super::history::History;
+use super::loss::LossLab;
+use super::pace::Paces;
+use super::reading::Reading;
 use super::state::{AppState, Overlays};
 use super::story::StoryStep;
 use super::views::{ViewKey, Views};
@@ -38,6 +42,8 @@ pub struct JobLine {
     pub title: String,
     /// How far it is, 0 to 1.
     pub fraction: f32,
+    /// How long its present stage will still take, when that can be told.
+    pub left: Option<Duration>,
 }
 
 /// A message that stays until it is dismissed.
@@ -63,6 +69,10 @@ pub struct Model<'a> {
     pub surroundings: Option<&'a Surroundings>,
     /// The steps of the ray story; empty while its pane is closed, and where there is nothing to tell.
     pub story: Vec<StoryStep>,
+    /// What a conversion loses, as far as it has been measured.
+    pub loss: &'a LossLab,
+    /// The loss laboratory is seen: only then anything is measured.
+    pub sees_loss: bool,
     /// Linear colour of the probed texel in the selected map, when it has been read back.
     pub texel_color: Option<[f32; 3]>,
     /// The frame plan's account of the last drawing.
@@ -73,8 +83,10 @@ pub struct Model<'a> {
     pub adapter: &'a str,
     /// Jobs under way.
     pub jobs: &'a [JobLine],
-    /// Texels a second that the last export made.
-    pub export_rate: Option<f64>,
+    /// How fast exports are.
+    pub paces: &'a Paces,
+    /// The file that the user is deciding about.
+    pub reading: Option<&'a Reading>,
     /// Messages to show.
     pub messages: &'a [Message],
     /// The device, for naming views.

@@ -138,7 +138,11 @@ pub struct Jobs<'a> {
 }
 
 impl Jobs<'_> {
-    fn start<T: Send + 'static>(
+    /// Starts `work` on a thread of its own.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn start<T: Send + 'static>(
         &mut self,
         title: String,
         work: impl FnOnce(&Progress) -> T + Send + 'static,
@@ -455,6 +459,7 @@ pub fn job_line<T: Send + 'static>(job: &Job<T>) -> JobLine {
         id: job.id,
         title,
         fraction: job.progress.fraction(),
+        left: job.progress.left(),
     }
 }
 

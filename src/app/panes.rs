@@ -7,8 +7,11 @@ use egui_tiles::{
 use super::action::Action;
 use super::arrangement::{Arrangement, Pane};
 use super::model::Model;
-use super::state::{AppState, StoryState};
-use super::{curves, map_panel, story, viewport};
+use super::state::{AppState, LossState, StoryState};
+use super::{curves, loss_panel, map_panel, story, viewport};
+
+/// The panes that need height to be read.
+const READ: [Pane; 3] = [Pane::Curves, Pane::Story, Pane::Loss];
 
 /// The first arrangement: the viewport above a grid of the open panels.
 pub fn first_tree(state: &AppState) -> Tree<Pane> {
@@ -48,7 +51,7 @@ pub fn follow(tree: &mut Tree<Pane>, state: &AppState) {
         *tree = first_tree(state);
     }
     let maps = state.panels.iter().map(|panel| Pane::Map(panel.mapping));
-    for pane in maps.chain([Pane::Curves, Pane::Story]) {
+    for pane in maps.chain(READ) {
         match (state.is_open(pane), find(tree, pane)) {
             (true, None) => insert(tree, pane),
             (false, Some(id)) => {
@@ -68,9 +71,7 @@ fn insert(tree: &mut Tree<Pane>, pane: Pane) {
     if !matches!(pane, Pane::Map(_))
         && let Some(there) = Arrangement::of_tree(tree)
     {
-        let other = [Pane::Curves, Pane::Story]
-            .into_iter()
-            .find(|other| there.holds(*other));
+        let other = READ.into_iter().find(|other| there.holds(*other));
         let changed = match other {
             Some(other) => there.with_below(other, pane),
             None => there.with_column(pane),
@@ -97,7 +98,7 @@ fn insert(tree: &mut Tree<Pane>, pane: Pane) {
 /// Shows the tiles, or one pane alone.
 pub fn panes_ui(ui: &mut egui::Ui, model: &mut Model<'_>, tree: &mut Tree<Pane>) {
     if let Some(pane) = model.state.maximised {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             ui.strong(pane.name());
             if ui.button("Show all panels").clicked() {
                 model.push(Action::SetMaximised(None));
@@ -115,6 +116,7 @@ fn pane_ui(ui: &mut egui::Ui, model: &mut Model<'_>, pane: Pane) {
         Pane::Map(mapping) => map_panel::map_panel_ui(ui, model, mapping),
         Pane::Curves => curves::curves_ui(ui, model),
         Pane::Story => story::story_ui(ui, model),
+        Pane::Loss => loss_panel::loss_ui(ui, model),
     }
 }
 
@@ -147,6 +149,13 @@ impl Behavior<Pane> for PaneBehavior<'_, '_> {
                 self.model.push(Action::SetStory(StoryState {
                     open: false,
                     ..story
+                }));
+            }
+            Some(Tile::Pane(Pane::Loss)) => {
+                let loss = self.model.state.loss;
+                self.model.push(Action::SetLoss(LossState {
+                    open: false,
+                    ..loss
                 }));
             }
             _ => {}

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::gpu::ToneCurve;
 use crate::imaging::Environment;
+use crate::imaging::resample::Filter;
 use crate::mapping::MappingId;
 use crate::math::{Rotation, Vec3};
 use crate::optics::{Formula, Material};
@@ -18,7 +19,7 @@ use super::objects::target_of;
 use super::viewport::looked_up;
 
 /// Version of the saved form. A scene of a later version is refused; earlier ones are migrated by [`AppState::from_json`].
-pub const SCHEMA: u32 = 3;
+pub const SCHEMA: u32 = 4;
 
 /// Everything that a saved scene holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,7 +27,7 @@ pub const SCHEMA: u32 = 3;
 pub struct AppState {
     /// Version of this form.
     pub schema: u32,
-    /// What surrounds the object.
+    /// What surrounds the object; scenes before form 4 say nothing of how its file is read.
     pub environment: Environment,
     /// How it is turned; scenes before form 3 know no turn.
     pub rotation: Rotation,
@@ -75,6 +76,8 @@ pub struct AppState {
     pub curves: CurvesState,
     /// The ray story.
     pub story: StoryState,
+    /// The loss laboratory.
+    pub loss: LossState,
     /// The controls at the left are shown.
     pub controls_open: bool,
     /// What the inspector shows.
@@ -219,6 +222,61 @@ pub enum StoryKind {
     SphereMap,
 }
 
+/// What the loss laboratory measures: a map of the environment goes to another mapping and comes back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct LossState {
+    /// The pane is shown.
+    pub open: bool,
+    /// The mapping of the map that goes and comes back.
+    pub from: MappingId,
+    /// Rows of each of its charts, in [`LOSS_ROWS`].
+    pub from_rows: u32,
+    /// The mapping that it goes through.
+    pub via: MappingId,
+    /// Rows of each chart there.
+    pub via_rows: u32,
+    /// The filter of both ways; `None`: the one that suits each way, as [`crate::imaging::resample::Conversion::filter`].
+    pub filter: Option<Filter>,
+    /// By what the differences are multiplied to be seen, a power of two up to [`MOST_MAGNIFIED`]; `None`: by what suits
+    /// them.
+    pub magnification: Option<u32>,
+}
+
+/// Rows of a chart in the loss laboratory. At the most, six faces are compared in a second or two, and the picture of
+/// their cross has a quarter of the side that every picture here may have.
+pub const LOSS_ROWS: (u32, u32) = (1, 1024);
+/// The largest magnification of differences: at it the last bit of a float near 1 is seen.
+pub const MOST_MAGNIFIED: u32 = 1 << 20;
+
+impl Default for LossState {
+    /// A latlong through a cube map with as many texels around the horizon.
+    fn default() -> Self {
+        Self {
+            open: false,
+            from: MappingId::Latlong,
+            from_rows: 256,
+            via: MappingId::Cube,
+            via_rows: 128,
+            filter: None,
+            magnification: None,
+        }
+    }
+}
+
+impl LossState {
+    /// The nearest that makes sense.
+    #[must_use]
+    pub fn sanitized(mut self) -> Self {
+        for rows in [&mut self.from_rows, &mut self.via_rows] {
+            *rows = (*rows).clamp(LOSS_ROWS.0, LOSS_ROWS.1);
+        }
+        let power = |factor: u32| 1 << factor.clamp(1, MOST_MAGNIFIED).ilog2();
+        self.magnification = self.magnification.map(power);
+        self
+    }
+}
+
 /// Smallest and largest magnification of a panel: at the largest, a texel of the finest map fills the panel.
 pub const ZOOM_RANGE: (f32, f32) = (0.5, 4096.0);
 /// Stops of exposure that the slider offers: the range of an HDR photograph.
@@ -331,6 +389,7 @@ impl Default for AppState {
             curves_open: false,
             curves: CurvesState::default(),
             story: StoryState::default(),
+            loss: LossState::default(),
             controls_open: true,
             inspector: InspectorState::default(),
         }
@@ -393,6 +452,7 @@ impl AppState {
         self.density = self.density.clamp(DENSITY_RANGE.0, DENSITY_RANGE.1);
         self.material = self.material.sanitized();
         self.compare_material = self.compare_material.map(Material::sanitized);
+        self.loss = self.loss.sanitized();
         self.probe = unit(self.probe);
         self.eye_ray = self.eye_ray.filter(|eye| {
             let ray = eye.ray();
@@ -447,6 +507,7 @@ impl AppState {
             Pane::Viewport => true,
             Pane::Curves => self.curves_open,
             Pane::Story => self.story.open,
+            Pane::Loss => self.loss.open,
             Pane::Map(mapping) => self.panel(mapping).open,
         }
     }

@@ -4,6 +4,8 @@
 //! angle it covers, so that the crowded texels of a pole weigh no more than any other part of the sphere; which texel is the
 //! worst does not depend on that. Texels without a direction, and charts that either map lacks, count nothing.
 
+use std::time::{Duration, Instant};
+
 use rayon::prelude::*;
 
 use super::resample::{Conversion, Filter, Report, ResampleError, resample};
@@ -45,6 +47,8 @@ pub struct Loss {
     pub difference: Difference,
     /// What the conversion there did, and the one back.
     pub reports: [Report; 2],
+    /// How long each took, planning included.
+    pub times: [Duration; 2],
 }
 
 /// A part of a comparison: rows, then charts, then all.
@@ -209,7 +213,9 @@ pub fn loss(
     back: Option<Filter>,
     progress: &Progress,
 ) -> Result<Loss, ResampleError> {
+    let start = Instant::now();
     let (there, first) = resample(source, via, progress)?;
+    let middle = Instant::now();
     let shape = source.shape();
     let conversion = Conversion {
         layout: Layout::Faces,
@@ -227,12 +233,14 @@ pub fn loss(
         ..Conversion::new(shape.mapping, shape.size, there.shape())
     };
     let (returned, second) = resample(&there, &conversion, progress)?;
+    let times = [middle - start, middle.elapsed()];
     let difference = compare(source, &returned).ok_or_else(|| {
         ResampleError::OtherShape("no texel of the source has a direction".to_owned())
     })?;
     Ok(Loss {
         difference,
         reports: [first, second],
+        times,
     })
 }
 

@@ -1,8 +1,8 @@
 //! What a picture may be: mapping and layout from its shape, what its file says, and how well its charts meet.
 
 use super::evenness::{has_empty_corners, is_even};
-use super::seams::seams;
-use super::{EnvmapKind, MapShape, Raster, Siting};
+use super::seams::{Texels, seams};
+use super::{EnvmapKind, MapShape, OpenHints, Raster, Siting};
 use crate::mapping::{Axes, Domain, Frame, Layout, MappingId};
 
 /// Charts that differ this many times as much across their seams as beside them do not meet.
@@ -44,6 +44,17 @@ impl Proposal {
             score: None,
             why: "as it was said to be".to_owned(),
             doubt: 0.0,
+        }
+    }
+
+    /// The hints that ask for it; what else was said stays.
+    pub fn hints(&self, said: &OpenHints) -> OpenHints {
+        OpenHints {
+            mapping: Some(self.mapping),
+            layout: Some(self.layout),
+            frame: self.frame,
+            siting: Some(self.siting),
+            ..*said
         }
     }
 
@@ -221,7 +232,8 @@ impl Candidate {
         proposal.score = seams(&shape, rasters).and_then(|seams| seams.score());
         let is_same = proposal.score.is_some_and(|score| score < SAME);
         let has_borders = matches!(self.mapping, MappingId::Cube | MappingId::Latlong);
-        if (is_same && has_borders)
+        let has_poles = || self.mapping != MappingId::Latlong || has_poles(&shape, rasters);
+        if (is_same && has_borders && has_poles())
             || (self.is_said && self.frame.is_some_and(|frame| frame.is_edge_sited))
         {
             proposal.siting = Siting::Edge;
@@ -234,6 +246,26 @@ impl Candidate {
         proposal.doubt = doubt;
         Some(proposal)
     }
+}
+
+/// Whether the first and last rows of a latlong are one direction each, as they are where samples lie on the border. Columns alone do
+/// not tell: what is symmetric about the date line is the same on both sides of it.
+fn has_poles(shape: &MapShape, rasters: &[Raster]) -> bool {
+    // Rings around a pole of half a texel and of one and a half differ by three times as much as they are apart; a point by nothing.
+    const POINT: f32 = 0.1;
+    let texels = Texels { shape, rasters };
+    let [width, height] = shape.size;
+    let spread = |row: u32| {
+        let (mut least, mut most) = ([f32::MAX; 3], [f32::MIN; 3]);
+        for column in 0..width {
+            let light = texels.lightness((0, [column, row])).unwrap_or_default();
+            least = [0, 1, 2].map(|c| least[c].min(light[c]));
+            most = [0, 1, 2].map(|c| most[c].max(light[c]));
+        }
+        (0..3).map(|c| most[c] - least[c]).sum::<f32>()
+    };
+    let is_point = |row: u32, next: u32| spread(row) < POINT * spread(next);
+    height >= 4 && is_point(0, 1) && is_point(height - 1, height - 2)
 }
 
 /// What in the parts that no chart uses speaks against a shape.

@@ -1,16 +1,13 @@
 //! What can be shown: embedded photographs, computed patterns, files.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use super::Progress;
 use super::computed::{self, Pattern};
 use super::file::short_name;
 use super::load::{self, LoadError, LoadProblem, Loaded};
-use super::resample::{Conversion, Filter, ResampleError, chart_size, equal_height, resample};
-use super::{Channels, Image, OpenHints, Raster, SampleKind, Samples, Transfer, open_map};
-use crate::mapping::MappingId;
+use super::{EnvironmentMap, MapFile, OpenHints, Pictures, Progress, Stored, open_map};
 
 /// The colours of the six faces +x -x +y -y +z -z as sRGB: three hues of the palette that Okabe and Ito chose for every kind
 /// of colour vision, one pair a hue family, the positive face darker than the negative one.
@@ -41,8 +38,8 @@ pub enum Environment {
     DirectionColor,
     /// Icosahedron and dodecahedron.
     IcosahedronCrosses,
-    /// A map on disk, of any mapping and layout that can be told from the file.
-    File(PathBuf),
+    /// A map on disk, of any mapping and layout.
+    File(MapFile),
 }
 
 impl Environment {
@@ -65,7 +62,7 @@ impl Environment {
             Self::Graticule => "Graticule".to_owned(),
             Self::DirectionColor => "Direction as colour".to_owned(),
             Self::IcosahedronCrosses => "Icosahedron crosses".to_owned(),
-            Self::File(path) => short_name(path),
+            Self::File(file) => short_name(&file.path),
         }
     }
 
@@ -78,7 +75,15 @@ impl Environment {
             Self::Graticule => "graticule".to_owned(),
             Self::DirectionColor => "direction-colour".to_owned(),
             Self::IcosahedronCrosses => "icosahedron-crosses".to_owned(),
-            Self::File(path) => path.display().to_string(),
+            Self::File(file) => file.path.display().to_string(),
+        }
+    }
+
+    /// What is said of its file; nothing of the built-in ones.
+    pub fn hints(&self) -> OpenHints {
+        match self {
+            Self::File(file) => file.hints,
+            _ => OpenHints::default(),
         }
     }
 
@@ -89,8 +94,34 @@ impl Environment {
             .into_iter()
             .find(|environment| environment.id() == id)
             .unwrap_or_else(|| {
-                Self::File(std::path::absolute(id).unwrap_or_else(|_| PathBuf::from(id)))
+                let path = std::path::absolute(id).unwrap_or_else(|_| PathBuf::from(id));
+                Self::File(path.into())
             })
+    }
+
+    /// The map as conversions take it, and how its file stores a sample. A file's has its own mapping and keeps every bit; a
+    /// built-in one is a latlong of floats, a computed one with at least `rows` rows.
+    ///
+    /// # Errors
+    /// When a file does not open or the job is cancelled.
+    pub fn map(
+        &self,
+        rows: u32,
+        progress: &Progress,
+    ) -> Result<(EnvironmentMap, Stored), LoadError> {
+        if let Self::File(MapFile { path, hints }) = self {
+            let opened = open_map(std::slice::from_ref(path), hints, progress)?;
+            return Ok((opened.map, opened.stored));
+        }
+        // Small ones are computed larger than needed: their lines are drawn for the usual size.
+        let rows = rows.clamp(computed::DEFAULT_HEIGHT, load::MOST_HEIGHT);
+        let image = self.image_at(rows, progress)?.image;
+        let map = EnvironmentMap::from_latlong(image).map_err(|error| LoadError {
+            problem: LoadProblem::Unclear(error.to_string()),
+            name: self.id(),
+        })?;
+        // Photographs are stored so, and no pattern needs more.
+        Ok((map, Stored::Half))
     }
 
     /// The latlong picture, computed ones at [`computed::DEFAULT_HEIGHT`].
@@ -122,51 +153,10 @@ impl Environment {
             Self::Graticule => pattern(Pattern::Graticule),
             Self::DirectionColor => pattern(Pattern::DirectionColor),
             Self::IcosahedronCrosses => pattern(Pattern::IcosahedronCrosses),
-            Self::File(path) => match load::load(path, progress) {
-                Err(error) if error.problem.is_of_shape() => unfolded(path, progress),
-                result => result,
-            },
+            Self::File(MapFile { path, hints }) => {
+                let pictures = Pictures::read(std::slice::from_ref(path), hints, progress)?;
+                pictures.taken(hints)?.into_latlong(progress)
+            }
         }
     }
-}
-
-/// Rows of the latlong that a map of another mapping becomes: what most devices' textures hold.
-const MOST_UNFOLDED: u32 = 4096;
-
-/// A map of any mapping, from one file or six, as a latlong picture with as many texels around the horizon.
-fn unfolded(path: &Path, progress: &Progress) -> Result<Loaded, LoadError> {
-    let problem = |problem| LoadError {
-        problem,
-        name: path.display().to_string(),
-    };
-    let opened = open_map(&[path.to_owned()], &OpenHints::default(), progress)?;
-    let shape = opened.map.shape();
-    let height = equal_height(MappingId::Latlong, shape).min(MOST_UNFOLDED);
-    let conversion = Conversion {
-        filter: Some(Filter::Bilinear), // the map is looked up through further filters
-        samples: SampleKind::F32,
-        transfer: Transfer::Linear,
-        channels: Channels::Rgb,
-        ..Conversion::new(
-            MappingId::Latlong,
-            chart_size(MappingId::Latlong, height),
-            shape,
-        )
-    };
-    let latlong = resample(&opened.map, &conversion, progress).map_err(|error| match error {
-        ResampleError::Cancelled => problem(LoadProblem::Cancelled),
-        ResampleError::OutOfMemory { bytes } => problem(LoadProblem::OutOfMemory { bytes }),
-        other => problem(LoadProblem::Unclear(other.to_string())),
-    });
-    let (latlong, _) = latlong?;
-    let picture = latlong.rasters().first().map(Raster::samples);
-    let Some(Samples::F32(samples)) = picture else {
-        return Err(problem(LoadProblem::Unclear(
-            "nothing came out of it; convert it by itself".to_owned(),
-        )));
-    };
-    let [width, height] = latlong.shape().size;
-    let image = Image::new(width, height, samples.as_chunks().0.to_vec())
-        .map_err(|error| problem(LoadProblem::Unclear(error.to_string())))?;
-    Ok(Loaded::from_image(image, progress))
 }

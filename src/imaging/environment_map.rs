@@ -1,10 +1,15 @@
 //! An environment map as it lies in memory: which mapping, and where each chart lies in which picture.
 
-use super::{Channels, Raster, SampleKind, Transfer};
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Channels, Image, Raster, SampleKind, Samples, Transfer};
 use crate::mapping::{Arrangement, Axes, Frame, FrameError, Layout, MappingId, Turn};
 
 /// Where the samples of a chart of n texels sit, along each side.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Siting {
     /// Texel i at (i + 1/2)/n: in the middle of its square. The rule here and nearly everywhere.
     #[default]
@@ -110,15 +115,19 @@ impl MapShape {
         }
     }
 
+    /// Takes what the map shows to be a mirror image: left and right are exchanged all around.
+    pub fn mirror(&mut self) {
+        self.world_from_map = self.world_from_map.then(Axes::MIRROR);
+    }
+
     /// Takes the pictures in a row, a column or two rows to be in a program's order. Where the cells stand for the labels, as
     /// in a cross or six files, the order says nothing.
     pub fn apply_order(&mut self, frame: &Frame, layout: Layout) {
-        if let Some(cube) = frame.cube
+        if let Some(order) = frame.order(layout)
             && self.charts.len() == 6
-            && matches!(layout, Layout::Row | Layout::Column | Layout::ThreeByTwo)
         {
             let in_order = self.charts.clone();
-            for (label, placement) in cube.order.into_iter().zip(in_order) {
+            for (label, placement) in order.into_iter().zip(in_order) {
                 self.charts[label] = placement;
             }
         }
@@ -152,7 +161,7 @@ impl MapShape {
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnvironmentMap {
     shape: MapShape,
-    rasters: Vec<Raster>,
+    rasters: Arc<Vec<Raster>>,
 }
 
 /// Pictures that do not fit the shape that is said of them.
@@ -166,6 +175,14 @@ impl EnvironmentMap {
     /// # Errors
     /// When a chart lies outside of its picture, a picture is of another kind than the shape says, or no chart is there.
     pub fn new(shape: MapShape, rasters: Vec<Raster>) -> Result<Self, ShapeError> {
+        Self::shared(shape, Arc::new(rasters))
+    }
+
+    /// A map from pictures that others look at too: the same ones taken in several ways are not copied.
+    ///
+    /// # Errors
+    /// As [`EnvironmentMap::new`].
+    pub fn shared(shape: MapShape, rasters: Arc<Vec<Raster>>) -> Result<Self, ShapeError> {
         let refuse = |why: String| Err(ShapeError(why));
         let charts = shape.mapping.info().chart_count() as usize;
         if shape.charts.len() != charts {
@@ -174,7 +191,7 @@ impl EnvironmentMap {
         if shape.size.contains(&0) || shape.charts.iter().all(Option::is_none) {
             return refuse("it has no texels".to_owned());
         }
-        for raster in &rasters {
+        for raster in rasters.iter() {
             let is_same = raster.channels() == shape.channels
                 && raster.samples().kind() == shape.samples
                 && raster.transfer() == shape.transfer;
@@ -196,6 +213,29 @@ impl EnvironmentMap {
             }
         }
         Ok(Self { shape, rasters })
+    }
+
+    /// The map of a latlong picture.
+    ///
+    /// # Errors
+    /// As [`EnvironmentMap::new`].
+    pub fn of_latlong(image: &Image) -> Result<Self, ShapeError> {
+        Self::from_latlong(image.clone())
+    }
+
+    /// As [`EnvironmentMap::of_latlong`], without a copy.
+    ///
+    /// # Errors
+    /// As [`EnvironmentMap::new`].
+    pub fn from_latlong(image: Image) -> Result<Self, ShapeError> {
+        let size = [image.width(), image.height()];
+        let samples = Samples::F32(image.into_pixels().into_flattened());
+        let raster = Raster::new(size, Channels::Rgb, Transfer::Linear, samples);
+        Self::from_layout(
+            MappingId::Latlong,
+            Layout::Single,
+            raster.into_iter().collect(),
+        )
     }
 
     /// A map whose charts lie in `layout`, upright as the mapping draws them.
@@ -242,14 +282,15 @@ impl EnvironmentMap {
         &self.rasters
     }
 
-    /// The pictures, to change in place. What they are of cannot be changed through it without breaking the map.
+    /// The pictures, to change in place; copied first where others look at them. What they are of cannot be changed through
+    /// it without breaking the map.
     pub fn rasters_mut(&mut self) -> &mut [Raster] {
-        &mut self.rasters
+        Arc::make_mut(&mut self.rasters).as_mut_slice()
     }
 
-    /// Shape and pictures.
+    /// Shape and pictures; copied where others look at them.
     pub fn into_parts(self) -> (MapShape, Vec<Raster>) {
-        (self.shape, self.rasters)
+        (self.shape, Arc::unwrap_or_clone(self.rasters))
     }
 
     /// Colour in linear light and opacity of texel (column, row) of a chart; black and clear where there is none. For

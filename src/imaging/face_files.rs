@@ -25,6 +25,15 @@ const SETS: [[&str; 6]; 6] = [
 /// One letter is too little to tell a face from a file's own name, unless its place is given.
 const LETTERS: [&str; 6] = ["r", "l", "u", "d", "f", "b"];
 
+/// The name of a chart in a file's name: `px` for `+x`.
+pub fn face_name(chart: &str) -> String {
+    match chart.split_at_checked(1) {
+        Some(("+", axis)) => format!("p{axis}"),
+        Some(("-", axis)) => format!("n{axis}"),
+        _ => chart.to_owned(),
+    }
+}
+
 /// What a path stands for.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Named {
@@ -118,5 +127,17 @@ impl<'a> Folder<'a> {
             *path = self.path.join(name);
         }
         Ok(six)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signs_become_letters() {
+        assert_eq!(face_name("+x"), "px");
+        assert_eq!(face_name("-z"), "nz");
+        assert_eq!(face_name("front"), "front");
     }
 }

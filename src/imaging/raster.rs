@@ -1,5 +1,7 @@
 //! Pixels as a file holds them: 8, 16 or 32 bits a sample, with or without alpha.
 
+use serde::{Deserialize, Serialize};
+
 use super::srgb;
 
 /// What stands in a pixel.
@@ -72,7 +74,8 @@ impl Stored {
 }
 
 /// How stored numbers become light. Opacity is always linear.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Transfer {
     /// The number is the light: of an integer, its share of the largest.
     Linear,

@@ -82,6 +82,26 @@ impl Originals {
     pub fn is_empty(&self) -> bool {
         self.kept.is_empty()
     }
+
+    /// Keeps one more, of a texel after all that are kept, while there is room.
+    fn keep(&mut self, index: usize, original: [f32; 3]) {
+        if self.kept.len() < MOST_ORIGINALS
+            && let Ok(index) = u32::try_from(index)
+        {
+            self.kept.push((index, original));
+        }
+    }
+
+    /// These, which were replaced first, and `later` ones of the same picture.
+    pub(super) fn before(&self, later: Self) -> Self {
+        let mut kept = self.kept.clone();
+        kept.extend(later.kept);
+        // Stable: of a texel that was replaced twice the first one stays.
+        kept.sort_by_key(|entry| entry.0);
+        kept.dedup_by_key(|entry| entry.0);
+        kept.truncate(MOST_ORIGINALS);
+        Self { kept }
+    }
 }
 
 /// Counts and replaces every component that is NaN, infinite, negative or above [`LARGEST`]. -0 stays.
@@ -99,33 +119,30 @@ pub fn sanitize(image: &mut Image) -> (BadTexels, Originals) {
         bad.negative += any(|c| c.is_finite() && c < 0.0);
         bad.too_bright += any(|c| c.is_finite() && c > LARGEST);
         *pixel = original.map(replaced);
-        if originals.kept.len() < MOST_ORIGINALS
-            && let Ok(index) = u32::try_from(index)
-        {
-            originals.kept.push((index, original));
-        }
+        originals.keep(index, original);
     }
     (bad, originals)
 }
 
 /// Counts and replaces what no filter may meet: NaN by 0, +infinity by [`LARGEST`], -infinity by 0. Every finite value stays
 /// as it is, however large or negative, and codes are always finite.
-pub fn sanitize_raster(raster: &mut Raster) -> BadTexels {
-    let mut bad = BadTexels::default();
+pub fn sanitize_raster(raster: &mut Raster) -> (BadTexels, Originals) {
+    let (mut bad, mut originals) = (BadTexels::default(), Originals::default());
     let count = raster.channels().count();
     if let Samples::F32(samples) = raster.samples_mut() {
-        for texel in samples.chunks_exact_mut(count) {
+        for (index, texel) in samples.chunks_exact_mut(count).enumerate() {
             if texel.iter().all(|c| c.is_finite()) {
                 continue;
             }
             bad.nan += u64::from(texel.iter().any(|c| c.is_nan()));
             bad.infinite += u64::from(texel.iter().any(|c| c.is_infinite()));
+            originals.keep(index, [texel[0], texel[1], texel[2]]);
             for c in texel.iter_mut().filter(|c| !c.is_finite()) {
                 *c = replaced(*c);
             }
         }
     }
-    bad
+    (bad, originals)
 }
 
 fn replaced(c: f32) -> f32 {

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
+
 use super::cube_face::{FACES, from_frame, to_frame};
 use super::{Axes, Turn};
 
@@ -16,7 +18,10 @@ pub struct Held {
 }
 
 /// For each of the six pictures labelled +x -x +y -y +z -z, in this order, the face that it really is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+///
+/// In files it is its text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
 pub struct Arrangement([Held; 6]);
 
 impl Arrangement {
@@ -75,6 +80,12 @@ impl Arrangement {
         }))
     }
 
+    /// The same for pictures that are labelled by their places, which a program has filled in this order of labels; each
+    /// label must come once.
+    pub fn by_place(&self, order: [usize; 6]) -> Self {
+        Self(order.map(|label| self.0[label]))
+    }
+
     /// The axes of which this is the arrangement, when a signed permutation does it.
     pub fn axes(&self) -> Option<Axes> {
         Axes::all().find(|axes| Self::from_axes(*axes) == *self)
@@ -127,6 +138,20 @@ impl fmt::Display for Arrangement {
             }
         }
         Ok(())
+    }
+}
+
+impl From<Arrangement> for String {
+    fn from(arrangement: Arrangement) -> Self {
+        arrangement.to_string()
+    }
+}
+
+impl TryFrom<String> for Arrangement {
+    type Error = ArrangementError;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse()
     }
 }
 

@@ -18,6 +18,12 @@ impl Axes {
         negative: [false; 3],
     };
 
+    /// Left and right exchanged, as in a mirror before one.
+    pub const MIRROR: Self = Self {
+        from: [0, 1, 2],
+        negative: [true, false, false],
+    };
+
     /// The permutation that gives (a, b, c), each `+x`, `-y` and so on of the old components; `None` unless each axis
     /// comes once.
     pub fn parse(text: [&str; 3]) -> Option<Self> {

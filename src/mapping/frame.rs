@@ -5,10 +5,12 @@
 //! that is seen from inside becomes its mirror image. And how its pictures lie in its own axes. From both follows where
 //! its pictures lie in our world; [`Frame::is_mirrored`] tells where that mirrors them after all.
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
 use super::{Arrangement, Axes, Layout, MappingId};
 
 /// How well a frame's facts are founded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Founded {
     /// The program was run on a picture whose texels hold their own directions.
     Run,
@@ -30,7 +32,7 @@ impl Founded {
 }
 
 /// What a program's six pictures are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Pictures {
     /// They are looked up by the usual face table with this direction, made from a direction in the program's axes.
     LookedUp(Axes),
@@ -39,7 +41,7 @@ pub enum Pictures {
 }
 
 /// A program's cube maps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CubeFrame {
     /// What the pictures labelled +x -x +y -y +z -z are.
     pub pictures: Pictures,
@@ -52,7 +54,7 @@ pub struct CubeFrame {
 }
 
 /// A program's way to have environment maps.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, PartialEq, Eq, Hash)]
 pub struct Frame {
     /// Name on the command line.
     pub id: &'static str,
@@ -70,8 +72,24 @@ pub struct Frame {
     pub cube: Option<CubeFrame>,
     /// For each single-chart mapping of which something is known: the program's direction from the map's own.
     pub program_from_map: &'static [(MappingId, Axes)],
+    /// Whether it is this program: nothing is turned, whatever the mapping.
+    pub is_ours: bool,
     /// Whether its samples sit on the charts' borders instead of in the middle of their squares.
     pub is_edge_sited: bool,
+}
+
+/// By its id.
+impl Serialize for Frame {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.id)
+    }
+}
+
+impl<'de> Deserialize<'de> for &'static Frame {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let id = String::deserialize(deserializer)?;
+        Frame::from_id(&id).map_err(de::Error::custom)
+    }
 }
 
 /// A frame that says nothing of a mapping.
@@ -116,11 +134,15 @@ impl Frame {
     pub fn knows(&self, mapping: MappingId) -> bool {
         match mapping.info().chart_count() {
             6 => self.cube.is_some(),
-            _ => self
-                .program_from_map
-                .iter()
-                .any(|(known, _)| *known == mapping),
+            _ => self.world_from_map(mapping).is_some(),
         }
+    }
+
+    /// The labels of its six pictures in the order in which they lie in a layout. Where the cells stand for the labels, as in
+    /// a cross or six files, there is none.
+    pub fn order(&self, layout: Layout) -> Option<[usize; 6]> {
+        let is_ordered = matches!(layout, Layout::Row | Layout::Column | Layout::ThreeByTwo);
+        self.cube.filter(|_| is_ordered).map(|cube| cube.order)
     }
 
     /// The faces of our world that its six pictures show.
@@ -135,6 +157,9 @@ impl Frame {
 
     /// Our world from the own directions of its map of a single chart.
     pub fn world_from_map(&self, mapping: MappingId) -> Option<Axes> {
+        if self.is_ours {
+            return Some(Axes::IDENTITY);
+        }
         let known = self
             .program_from_map
             .iter()
@@ -217,10 +242,22 @@ const PLAIN: Frame = Frame {
     world_from_program: OURS,
     cube: None,
     program_from_map: &[],
+    is_ours: false,
     is_edge_sited: false,
 };
 
 const FRAMES: &[Frame] = &[
+    // For a file that says of itself what is not so.
+    Frame {
+        id: "sixfold",
+        name: "Sixfold's own",
+        about: "left-handed: x right, y up, z ahead, at the middle of a latlong; its cube maps are the usual ones",
+        source: "this program",
+        founded: Founded::Run,
+        cube: looked_up(OURS),
+        is_ours: true,
+        ..PLAIN
+    },
     Frame {
         id: "opengl",
         name: "OpenGL",
@@ -269,6 +306,7 @@ const FRAMES: &[Frame] = &[
             layout: Layout::Column,
         }),
         program_from_map: &[latlong(Z, -X, Y)],
+        is_ours: false,
         is_edge_sited: true,
     },
     Frame {

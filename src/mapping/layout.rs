@@ -2,12 +2,12 @@
 //!
 //! Picture coordinates (x, y) are in [0, 1]^2, x to the right and y downwards, over the whole picture.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{ChartPoint, Turn};
 
 /// The arrangement of a mapping's charts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Layout {
     /// One chart fills the picture.

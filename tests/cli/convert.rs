@@ -57,6 +57,7 @@ fn every_option_does_something() {
         "--supersample 3",
         "--samples edge",
         "--from-samples edge",
+        "--from-mirrored",
         "--layout row",
         "--layout 3x2-turned",
         "--faces -z,+x",
@@ -268,6 +269,7 @@ fn what_makes_no_sense_is_refused_with_one_line() {
         ("- - --raw rgb24 90000x90000 --from latlong", "no size"),
         ("- - --raw rgb24 4x2 --from latlong --json", "--json"),
         ("labelled-faces a.png --from cube", "built in"),
+        ("labelled-faces a.png --from-mirrored", "built in"),
     ];
     for (words, help) in cases {
         let run = convert(folder.path(), words);
@@ -293,6 +295,15 @@ fn what_fails_leaves_nothing_behind_and_what_is_there_stays() {
     std::fs::write(folder.path().join("old.png"), "old").unwrap();
     std::fs::write(folder.path().join("bad.png"), "\u{89}no").unwrap();
     let before = files(folder.path());
+    // The command line names its own options; a window has others.
+    done(folder.path(), "small.exr square.png --to octahedral");
+    let told = convert(folder.path(), "square.png x.png --to latlong");
+    assert!(
+        told.err.contains("(--from, --from-layout): square.png"),
+        "{}",
+        told.err
+    );
+    std::fs::remove_file(folder.path().join("square.png")).unwrap();
     for words in [
         "small.exr old.png",
         "bad.png new.png --from latlong",

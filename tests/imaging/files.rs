@@ -31,7 +31,7 @@ fn ids_and_scenes_name_every_environment() {
         (file.name().as_str(), file.id()),
         ("room.exr", path.display().to_string())
     );
-    assert_eq!(file, Environment::File(path));
+    assert_eq!(file, Environment::File(path.into()));
     let text = serde_json::to_string(&file).unwrap();
     assert_eq!(serde_json::from_str::<Environment>(&text).unwrap(), file);
 }
@@ -87,7 +87,11 @@ fn cancelled_loads_stop_and_files_open() {
     assert!(error.to_string().ends_with("missing.hdr"), "{error}");
     let error = load::load(folder.path(), &Progress::new()).unwrap_err();
     assert!(error.to_string().contains("not a regular file"), "{error}");
-    assert!(Environment::File(missing).image(&Progress::new()).is_err());
+    assert!(
+        Environment::File(missing.into())
+            .image(&Progress::new())
+            .is_err()
+    );
 }
 
 /// Opened like a file, a pipe to which nobody writes would hang this test.

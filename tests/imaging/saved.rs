@@ -466,14 +466,20 @@ fn only_what_no_filter_may_meet_is_replaced() {
         1.0,
     ];
     let mut raster = light([3, 1], Channels::Rgb, samples);
-    let bad = sanitize_raster(&mut raster);
+    let (bad, originals) = sanitize_raster(&mut raster);
+    assert_eq!(originals.len(), 2);
+    assert_eq!(
+        originals.get(1),
+        Some([f32::INFINITY, 2.0, f32::NEG_INFINITY])
+    );
+    assert!(originals.get(0).unwrap()[0].is_nan());
     assert_eq!(
         (bad.nan, bad.infinite, bad.negative, bad.too_bright),
         (1, 1, 0, 0)
     );
     let expected = vec![0.0, -7.0, 1e30, 65504.0, 2.0, 0.0, 0.0, -0.0, 1.0];
     assert_eq!(raster.samples(), &Samples::F32(expected));
-    assert!(sanitize_raster(&mut raster).is_clean());
+    assert!(sanitize_raster(&mut raster).0.is_clean());
 }
 
 #[test]

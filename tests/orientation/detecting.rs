@@ -3,6 +3,7 @@
 use sixfold::imaging::detect::{Detection, Known, detect};
 use sixfold::imaging::{EnvmapKind, Raster, Siting};
 use sixfold::mapping::{Arrangement, Frame, Layout, MappingId};
+use sixfold::math::Vec3;
 
 use crate::scenes::{Laid, Scene, constant, in_8_bits, photograph, smooth};
 
@@ -174,5 +175,36 @@ fn openexr_columns_are_told_from_ours() {
         assert_eq!(first.siting, Siting::Edge, "{}", told(&detection));
         assert!(detection.is_certain, "{}", told(&detection));
         assert_eq!(first.shape(&pictures), Some(shape.clone()));
+    }
+}
+
+/// A colour that is nought on the date line and grows alike on both sides of it: the outermost columns are the same, and yet no
+/// samples lie on the border.
+fn symmetric(d: Vec3<f64>) -> [f32; 3] {
+    d.to_f64().map(|c| ((c + 1.0) / 2.0) as f32)
+}
+
+#[test]
+fn only_poles_that_are_points_tell_samples_on_a_latlongs_border() {
+    for scene in [symmetric as Scene, smooth] {
+        for height in [32, 128] {
+            for siting in [Siting::Centre, Siting::Edge] {
+                let laid = Laid {
+                    siting,
+                    ..Laid::new(MappingId::Latlong, Layout::Single, height)
+                };
+                let detection = detected(&laid, scene);
+                let found = detection
+                    .proposals
+                    .iter()
+                    .find(|p| p.mapping == MappingId::Latlong);
+                assert_eq!(
+                    found.unwrap().siting,
+                    siting,
+                    "{height}: {}",
+                    told(&detection)
+                );
+            }
+        }
     }
 }

@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use sixfold::imaging::load::Format;
+use sixfold::imaging::load::{Format, LoadProblem};
 use sixfold::imaging::save::{Content, SaveOptions, format_of_path, save};
+use sixfold::imaging::srgb::linear_from_srgb8;
 use sixfold::imaging::{
-    Channels, Container, EnvmapKind, Level, OpenHints, OpenedMap, Progress, Raster, Samples,
-    Siting, Stored, Transfer, open_map,
+    Channels, Container, Environment, EnvmapKind, FACE_COLORS, Level, MapFile, OpenHints,
+    OpenedMap, Pictures, Preview, Progress, Raster, Samples, Siting, Stored, Transfer, open_map,
 };
-use sixfold::mapping::{Layout, MappingId};
+use sixfold::mapping::{Arrangement, Frame, Layout, MappingId};
 use sixfold::math::Vec3;
 
 use crate::scenes::{Laid, in_8_bits, photograph};
@@ -248,4 +249,189 @@ fn what_is_said_of_the_faces_is_done() {
     hints.arrange = Some(sixfold::mapping::Arrangement::IDENTITY);
     let arranged = open(&paths[0], &hints).unwrap();
     assert_eq!(arranged.map.shape().charts, was.charts);
+}
+
+#[test]
+fn pictures_are_decoded_once_and_taken_in_any_way() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("map.exr");
+    let laid = Laid::new(MappingId::Octahedral, Layout::Single, 48);
+    let pictures = laid.draw(&laid.shape(), photograph);
+    write(&path, Content::Raster(&pictures[0]), None);
+    let paths = [path.clone()];
+    let nothing = OpenHints::default();
+    let read = Pictures::read(&paths, &nothing, &Progress::new()).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    // A window and the command line say what to do about it in their own words.
+    let error = read.taken(&nothing).unwrap_err();
+    assert!(matches!(error.problem, LoadProblem::Untold(_)), "{error}");
+    assert!(!error.to_string().contains("--"), "{error}");
+    for proposal in read.proposals() {
+        let said = proposal.hints(&nothing);
+        let opened = read.taken(&said).unwrap();
+        assert_eq!(opened.chosen.mapping, proposal.mapping);
+        // What was chosen, said in full, is chosen again.
+        let again = read.taken(&opened.chosen.hints(&said)).unwrap();
+        assert_eq!(again.map, opened.map);
+        assert!(read.are_of(&paths, &said));
+    }
+    let coded = OpenHints {
+        transfer: Some(Transfer::Srgb),
+        ..nothing
+    };
+    assert!(!read.are_of(&paths, &coded), "it is decoded in another way");
+    let six = write_set(folder.path(), &SETS[0]);
+    let all = Pictures::read(&six[..1], &nothing, &Progress::new()).unwrap();
+    let alone = OpenHints {
+        mapping: Some(MappingId::Octahedral),
+        ..nothing
+    };
+    assert!(all.are_of(&six[3..4], &nothing) && !all.are_of(&six[..1], &alone));
+}
+
+#[test]
+fn an_order_goes_into_the_arrangement() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("row.exr");
+    let laid = Laid::new(MappingId::Cube, Layout::Row, 16);
+    let pictures = laid.draw(&laid.shape(), photograph);
+    write(&path, Content::Raster(&pictures[0]), None);
+    let frame = Frame::from_id("py360convert").unwrap();
+    let arrangement: Arrangement = "+z,-x,+y:180,-y,+x:mirrored:90,-z".parse().unwrap();
+    let charts = |frame, arrange| {
+        let hints = OpenHints {
+            frame,
+            arrange: Some(arrange),
+            ..OpenHints::default()
+        };
+        open(&path, &hints).unwrap().map.shape().charts.clone()
+    };
+    let both = charts(Some(frame), arrangement);
+    let order = frame.order(Layout::Row).unwrap();
+    assert_eq!(charts(None, arrangement.by_place(order)), both);
+    assert_ne!(charts(None, arrangement), both);
+    assert_eq!(frame.order(Layout::Cross), None);
+}
+
+#[test]
+fn a_mirror_image_shows_at_no_seam_but_in_the_pictures_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = write_set(folder.path(), &SETS[0]);
+    let read = Pictures::read(&paths, &OpenHints::default(), &Progress::new()).unwrap();
+    let opened = |mirrored| {
+        let hints = OpenHints {
+            mapping: Some(MappingId::Cube),
+            mirrored,
+            ..OpenHints::default()
+        };
+        read.taken(&hints).unwrap()
+    };
+    let (right, mirrored) = (opened(false), opened(true));
+    assert!(right.is_sure() && mirrored.is_sure());
+    assert_eq!(right.chosen.score, mirrored.chosen.score);
+    let cross = |opened: &OpenedMap| Preview::of(&opened.map, &Progress::new()).unwrap().cross;
+    let (right, mirrored) = (cross(&right), cross(&mirrored));
+    let [width, _] = right.size();
+    let face = width / 4;
+    // The middle column of four cells is ahead; what is left of it in one is right of it in the other.
+    let mut differ = 0.0f32;
+    for (x, y) in [(20, 20), (70, 30), (10, 80)] {
+        let ahead = |x| face + x;
+        let here = right.light(ahead(x), face + y);
+        let there = mirrored.light(ahead(face - 1 - x), face + y);
+        let same = mirrored.light(ahead(x), face + y);
+        for i in 0..3 {
+            assert!((here[i] - there[i]).abs() < 0.01, "{here:?} {there:?}");
+            differ = differ.max((here[i] - same[i]).abs());
+        }
+    }
+    assert!(differ > 0.05, "{differ}");
+}
+
+#[test]
+fn the_labelled_pictures_have_each_face_in_its_place() {
+    let preview = Preview::labelled(&Progress::new()).unwrap();
+    let face = preview.cross.size()[0] / 4;
+    for (cell, color) in Layout::Cross.cells().iter().zip(FACE_COLORS) {
+        // Between the letters and the border.
+        let at = cell.at.map(|place| place * face + face * 2 / 5);
+        let light = preview.cross.light(at[0], at[1] - face / 4);
+        let expected = linear_from_srgb8(color);
+        for i in 0..3 {
+            assert!((light[i] - expected[i]).abs() < 0.03, "{:?}", cell.at);
+        }
+    }
+    // The ball's middle shows what is behind the viewer, its right what is at the right.
+    let ball = &preview.ball;
+    let side = ball.size()[0];
+    let near = |light: [f32; 4], face: usize| {
+        let expected = linear_from_srgb8(FACE_COLORS[face]);
+        (0..3).all(|i| (light[i] - expected[i]).abs() < 0.1)
+    };
+    let at =
+        |x: f64, y: f64| ball.light((x * f64::from(side)) as u32, (y * f64::from(side)) as u32);
+    assert!(near(at(0.5, 0.4), 5) && near(at(0.8, 0.4), 0) && near(at(0.4, 0.2), 2));
+    assert!(!near(at(0.2, 0.4), 0));
+}
+
+#[test]
+fn what_is_shown_of_a_file_is_what_it_was_taken_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("map.exr");
+    let shown = |hints| {
+        let path = path.clone();
+        Environment::File(MapFile { path, hints }).image(&Progress::new())
+    };
+    // A latlong keeps its texels, and what was wrong with them.
+    let laid = Laid::new(MappingId::Latlong, Layout::Single, 24);
+    let mut picture = laid.draw(&laid.shape(), photograph).remove(0);
+    if let Samples::F32(samples) = picture.samples_mut() {
+        (samples[5], samples[7]) = (f32::NAN, -1.0);
+    }
+    write(&path, Content::Raster(&picture), None);
+    let loaded = shown(OpenHints::default()).unwrap();
+    assert_eq!((loaded.bad.nan, loaded.bad.negative), (1, 1));
+    assert!(loaded.originals.get(1).unwrap()[2].is_nan());
+    assert_eq!(loaded.originals.get(2).unwrap()[1], -1.0);
+    let kept = picture.light(30, 11);
+    assert_eq!(
+        loaded.image.texel(30, 11).unwrap(),
+        [kept[0], kept[1], kept[2]]
+    );
+    // What the file says of its axes holds, unless the user knows better.
+    let openexr = Frame::from_id("openexr").unwrap();
+    let mut truly = laid.shape();
+    truly.apply_frame(openexr, Layout::Single).unwrap();
+    let picture = laid.draw(&truly, photograph).remove(0);
+    write(&path, Content::Raster(&picture), Some(EnvmapKind::Latlong));
+    let apart = |hints| {
+        let image = shown(hints).unwrap().image;
+        let mut worst = 0.0f32;
+        for pattern in sixfold::math::inputs::SIGN_PATTERNS {
+            let dir = Vec3::from_f64(pattern.map(f64::from)).normalized();
+            let point = MappingId::Latlong.forward(dir).unwrap();
+            let (found, wanted) = (image.nearest(point.u, point.v), photograph(dir));
+            worst = (0..3).fold(worst, |worst, i| worst.max((found[i] - wanted[i]).abs()));
+        }
+        worst
+    };
+    let ours = OpenHints {
+        frame: Frame::from_id("sixfold").ok(),
+        ..OpenHints::default()
+    };
+    let (right, wrong) = (apart(OpenHints::default()), apart(ours));
+    assert!(right < 0.05 && wrong > 2.0 * right, "{right} {wrong}");
+    // Two discs are no panorama, although they are twice as wide as high.
+    let discs = Laid::new(MappingId::Paraboloid, Layout::Pair, 48);
+    let picture = discs.draw(&discs.shape(), photograph).remove(0);
+    write(&path, Content::Raster(&picture), None);
+    let as_said = |mapping| OpenHints {
+        mapping: Some(mapping),
+        ..OpenHints::default()
+    };
+    let (right, wrong) = (
+        apart(as_said(MappingId::Paraboloid)),
+        apart(as_said(MappingId::Latlong)),
+    );
+    assert!(right < 0.05 && wrong > 2.0 * right, "{right} {wrong}");
 }

@@ -11,14 +11,16 @@ use crate::app::dialogs::{Dialog, ball_from};
 use crate::app::export::Export;
 use crate::app::files::{self, Opened};
 use crate::app::job::{Job, Outcome};
+use crate::app::loss::Wanted;
 use crate::app::model::{JobLine, Surroundings};
 use crate::app::object::{BodyKey, Jobs, News, job_line};
 use crate::app::panes;
 use crate::app::picture::{self, Destination, PictureRequest};
+use crate::app::reading::{Reading, Refusal, surroundings};
 use crate::app::state::AppState;
 use crate::gpu::{EnvironmentSource, EnvironmentTexture, Gpu};
 use crate::imaging::atomic::write_atomically;
-use crate::imaging::{Environment, Progress};
+use crate::imaging::{Environment, MapFile, Pictures, Progress, short_name};
 use crate::optics::material::BallPicture;
 
 /// Surroundings that are on the device already.
@@ -65,10 +67,13 @@ impl Explorer {
     pub fn jobs(&self) -> Vec<JobLine> {
         let loading = self.loading.iter().map(job_line);
         let opening = self.opening.iter().map(job_line);
+        let reading = self.reading.iter().filter_map(Reading::job);
         loading
             .chain(opening)
+            .chain(reading)
             .chain(self.errands.iter().map(job_line))
             .chain(self.object.jobs())
+            .chain(self.loss.job())
             .collect()
     }
 
@@ -79,6 +84,16 @@ impl Explorer {
 
     /// Starts loading surroundings; an older load is cancelled.
     pub(super) fn load(&mut self, ctx: &Context, environment: Environment) {
+        self.load_from(ctx, environment, None);
+    }
+
+    /// The same of a file that may have been decoded already.
+    pub(super) fn load_from(
+        &mut self,
+        ctx: &Context,
+        environment: Environment,
+        decoded: Option<Arc<Pictures>>,
+    ) {
         let (id, wake, gpu) = (self.job_id(), ctx.clone(), self.gpu.clone());
         let title = format!("opening {}", environment.name());
         let job = Job::start(
@@ -86,19 +101,22 @@ impl Explorer {
             title,
             move || wake.request_repaint(),
             move |progress| {
-                let loaded = environment
-                    .image(progress)
-                    .map_err(|error| error.to_string())?;
+                let (loaded, how) = match &environment {
+                    Environment::File(file) => {
+                        let (loaded, how) = surroundings(file, decoded, progress)?;
+                        (loaded, Some(how))
+                    }
+                    built_in => (built_in.image(progress)?, None),
+                };
                 if progress.is_cancelled() {
-                    return Err("opening was cancelled".to_owned());
+                    return Err(Refusal::Failed("opening was cancelled".to_owned()));
                 }
-                Ready::new(
-                    &gpu,
-                    Surroundings {
-                        environment,
-                        loaded: Arc::new(loaded),
-                    },
-                )
+                let surroundings = Surroundings {
+                    environment,
+                    loaded: Arc::new(loaded),
+                };
+                let ready = Ready::new(&gpu, surroundings).map_err(Refusal::Failed)?;
+                Ok((ready, how))
             },
         );
         match job {
@@ -149,13 +167,14 @@ impl Explorer {
 
     /// Writes the environment for another program.
     pub(super) fn export(&mut self, ctx: &Context, export: Export) {
-        let Some(surroundings) = self.surroundings.clone() else {
+        let Some(shown) = &self.surroundings else {
             self.fail("the environment is still loading; export it when it is there".to_owned());
             return;
         };
+        let environment = shown.environment.clone();
         self.send(ctx, "exporting the environment", move |progress| {
             let start = std::time::Instant::now();
-            export.write(&surroundings.loaded.image, progress)?;
+            export.write(&environment, progress)?;
             Ok(Errand {
                 message: format!("The environment is in {}", export.path),
                 picture: None,
@@ -211,7 +230,12 @@ impl Explorer {
             self.keep_shown();
         }
         self.object.cancel(id);
+        self.loss.cancel(id);
         self.opening.take_if(|job| job.id == id);
+        let is_reading = |reading: &Reading| reading.job().is_some_and(|job| job.id == id);
+        if self.reading.as_ref().is_some_and(is_reading) {
+            (self.reading, self.dialog) = (None, None);
+        }
         self.errands.retain(|job| job.id != id);
     }
 
@@ -220,6 +244,9 @@ impl Explorer {
         self.poll_opening(ctx);
         self.poll_errands(ctx);
         self.poll_asked(ctx);
+        self.loss.poll(ctx);
+        self.paces.poll();
+        self.follow_reading(ctx);
         for news in self.object.poll() {
             match news {
                 News::Opened(path) => self.act(Action::SetModel(path)),
@@ -238,6 +265,41 @@ impl Explorer {
                 News::PathsFailed(why) => self.fail(why),
                 News::Note(note) => self.tell(note),
             }
+        }
+    }
+
+    /// Measures the loss that is asked for while its pane is seen, and nothing while it is hidden.
+    pub(super) fn measure_loss(&mut self, ctx: &Context) {
+        let seen = self.surroundings.as_ref().filter(|_| self.sees_loss);
+        let wanted = seen.map(|shown| Wanted::new(&self.state, &shown.loaded));
+        if let (None, Some(shown)) = (&wanted, &self.surroundings) {
+            self.loss.forget_others(&shown.loaded);
+        }
+        if self.complete {
+            self.loss.complete(wanted, ctx);
+            return;
+        }
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        if let Err(why) = self.loss.follow(wanted, &mut jobs) {
+            self.fail(why);
+        }
+    }
+
+    /// Measures how fast the export of the open dialog will be.
+    pub(super) fn measure_pace(&mut self, ctx: &Context) {
+        let wanted = match (&self.dialog, &self.surroundings) {
+            (Some(Dialog::Export(export)), Some(shown)) => Some((&**export, &shown.loaded)),
+            _ => None,
+        };
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        if let Err(why) = self.paces.follow(wanted, &mut jobs) {
+            self.fail(why);
         }
     }
 
@@ -271,22 +333,57 @@ impl Explorer {
         };
         match job.poll() {
             Outcome::Running => self.loading = Some(job),
-            Outcome::Done(Ok(ready)) => {
+            Outcome::Done(Ok((ready, how))) => {
                 let Surroundings {
                     environment,
                     loaded,
                 } = &ready.surroundings;
-                // Of the built-in ones it stands beside their name; of a file it is news.
-                if let (Environment::File(_), Some(summary)) = (environment, loaded.bad.summary()) {
-                    self.tell(format!("{}: {summary}", environment.name()));
+                // What is wrong with a built-in one stands beside its name; of a file it is news, as is how it was read.
+                if let Some(how) = how {
+                    let parts = std::iter::once(how).chain(loaded.bad.summary());
+                    let text = parts.collect::<Vec<String>>().join("; ");
+                    self.tell(format!("{}: {text}", environment.name()));
                 }
                 self.install(ready);
             }
-            Outcome::Done(Err(why)) => self.loading_failed(why),
+            Outcome::Done(Err(Refusal::Failed(why))) => self.loading_failed(why),
+            Outcome::Done(Err(Refusal::Unsure(file, pictures))) => {
+                self.keep_shown();
+                self.decide(file, pictures);
+            }
             Outcome::Failed => {
                 self.loading_failed("opening the environment ended without a result".to_owned());
             }
         }
+    }
+
+    /// Asks how a file is to be read. What the user does in another dialog is not taken away.
+    fn decide(&mut self, file: MapFile, pictures: Arc<Pictures>) {
+        if self.dialog.is_some() {
+            let name = short_name(&file.path);
+            self.fail(format!(
+                "it is not certain how {name} is to be read; open it again to say it"
+            ));
+            return;
+        }
+        self.reading = Some(Reading::new(file.path.clone(), Some(pictures)));
+        self.dialog = Some(Dialog::Reading(file));
+    }
+
+    /// The file of the dialog that is shown, if it is about one, is read as it says.
+    fn follow_reading(&mut self, ctx: &Context) {
+        let Some(Dialog::Reading(file)) = &mut self.dialog else {
+            self.reading = None;
+            return;
+        };
+        let other = self.reading.take().filter(|reading| reading.is_of(file));
+        let reading = other.unwrap_or_else(|| Reading::new(file.path.clone(), None));
+        let reading = self.reading.insert(reading);
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        reading.follow(file, &mut jobs);
     }
 
     /// A bad file leaves the scene as it was; a scene whose environment is missing gets the default one.
@@ -344,7 +441,9 @@ impl Explorer {
                     picture,
                     rate,
                 })) => {
-                    self.export_rate = rate.or(self.export_rate);
+                    if let Some(rate) = rate {
+                        self.paces.learn(rate);
+                    }
                     if let Some(picture) = picture {
                         ctx.copy_image(picture);
                     }

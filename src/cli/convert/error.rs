@@ -4,7 +4,7 @@ use std::io;
 
 use crate::imaging::resample::ResampleError;
 use crate::imaging::save::SaveError;
-use crate::imaging::{LoadError, ShapeError, atomic};
+use crate::imaging::{LoadError, LoadProblem, atomic};
 
 /// Each message is one line: what is wrong, what to do, the path last.
 #[derive(Debug, thiserror::Error)]
@@ -14,10 +14,10 @@ pub(in crate::cli) enum ConvertError {
     Usage(String),
     /// The map does not open.
     #[error(transparent)]
-    Load(#[from] LoadError),
-    /// Its pictures are not what they are said to be.
-    #[error("{0}: {1}")]
-    Shape(ShapeError, String),
+    Load(LoadError),
+    /// Which map it is cannot be told.
+    #[error("{} (--from, --from-layout): {}", .0.problem, .0.name)]
+    Untold(LoadError),
     /// The conversion cannot be done.
     #[error(transparent)]
     Resample(#[from] ResampleError),
@@ -60,6 +60,15 @@ pub(in crate::cli) enum ConvertError {
     /// A thread ended before its time.
     #[error("a thread of the conversion broke off; please report what you converted")]
     Broken,
+}
+
+impl From<LoadError> for ConvertError {
+    fn from(error: LoadError) -> Self {
+        match error.problem {
+            LoadProblem::Untold(_) => Self::Untold(error),
+            _ => Self::Load(error),
+        }
+    }
 }
 
 impl ConvertError {

@@ -153,15 +153,6 @@ fn number(text: &str) -> Option<(Part, &str)> {
     (width <= MOST_DIGITS).then_some((Part::Number(width), after))
 }
 
-/// The name of a chart in a file's name: `px` for `+x`.
-pub(super) fn face_name(chart: &str) -> String {
-    match chart.split_at_checked(1) {
-        Some(("+", axis)) => format!("p{axis}"),
-        Some(("-", axis)) => format!("n{axis}"),
-        _ => chart.to_owned(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -208,12 +199,5 @@ mod tests {
         assert_eq!(frames("f_%d.png"), [8, 10_000]);
         assert_eq!(frames("h_%d.png"), [0; 0]);
         assert!(name("no/such/%d.png").frames().is_err());
-    }
-
-    #[test]
-    fn signs_become_letters() {
-        assert_eq!(face_name("+x"), "px");
-        assert_eq!(face_name("-z"), "nz");
-        assert_eq!(face_name("front"), "front");
     }
 }

@@ -45,6 +45,9 @@ pub(in crate::cli) struct ConvertOptions {
         help_heading = "What comes in"
     )]
     pub arrange: Option<String>,
+    /// IN is a mirror image: left and right are exchanged all around
+    #[arg(long, help_heading = "What comes in")]
+    pub from_mirrored: bool,
     /// Where the samples of IN sit
     #[arg(long, value_enum, value_name = "WHERE", help_heading = "What comes in")]
     pub from_samples: Option<SamplesAt>,

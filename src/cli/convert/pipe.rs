@@ -96,6 +96,9 @@ fn shape(
     if let Some(arrangement) = &hints.arrange {
         shape.arrange(arrangement);
     }
+    if hints.mirrored {
+        shape.mirror();
+    }
     if let Some(siting) = hints.siting {
         shape.siting = siting;
     }

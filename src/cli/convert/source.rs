@@ -6,11 +6,7 @@ use super::error::ConvertError;
 use super::names::Name;
 use crate::imaging::detect::Proposal;
 use crate::imaging::solver::{LatlongWay, ShaderLanguage, SkyHint, lookup_code, solve};
-use crate::imaging::{
-    Channels, Environment, EnvironmentMap, OpenHints, Progress, Raster, Samples, Stored, Transfer,
-    computed, open_map,
-};
-use crate::mapping::{Layout, MappingId};
+use crate::imaging::{Environment, EnvironmentMap, OpenHints, Progress, Stored, open_map};
 
 /// A map, and how its file stored it.
 pub(super) struct Source {
@@ -27,10 +23,13 @@ pub(super) fn open(
     progress: &Progress,
 ) -> Result<Source, ConvertError> {
     let opened = open_map(&[path], hints, progress)?;
+    let mut notes = opened.notes;
+    let certain = opened.misfit.filter(|solution| solution.is_certain);
+    notes.extend(certain.map(|solution| format!("try {}", solution.option())));
     Ok(Source {
         map: opened.map,
         stored: opened.stored,
-        notes: opened.notes,
+        notes,
     })
 }
 
@@ -40,21 +39,10 @@ pub(super) fn built_in(
     rows: Option<u32>,
     progress: &Progress,
 ) -> Result<Source, ConvertError> {
-    // Small ones are computed larger than needed: their lines are drawn for the usual size.
-    let rows = rows
-        .unwrap_or(0)
-        .clamp(computed::DEFAULT_HEIGHT, crate::imaging::load::MOST_HEIGHT);
-    let image = environment.image_at(rows, progress)?.image;
-    let size = [image.width(), image.height()];
-    let samples = Samples::F32(image.into_pixels().into_flattened());
-    let shaped = |error| ConvertError::Shape(error, environment.id());
-    let raster = Raster::new(size, Channels::Rgb, Transfer::Linear, samples);
-    let rasters = raster.into_iter().collect();
+    let (map, stored) = environment.map(rows.unwrap_or(0), progress)?;
     Ok(Source {
-        map: EnvironmentMap::from_layout(MappingId::Latlong, Layout::Single, rasters)
-            .map_err(shaped)?,
-        // Photographs are stored so, and no pattern needs more.
-        stored: Stored::Half,
+        map,
+        stored,
         notes: Vec::new(),
     })
 }

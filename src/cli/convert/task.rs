@@ -3,15 +3,17 @@
 use std::path::PathBuf;
 
 use super::error::ConvertError;
-use super::names::{Name, face_name};
+use super::names::Name;
 use super::options::ConvertOptions;
 use super::raw::RawFrames;
 use crate::imaging::load::Format;
-use crate::imaging::resample::{Conversion, Filter, chart_size, equal_height, rotation_of_viewer};
+use crate::imaging::resample::{
+    Conversion, Filter, chart_size, equal_height, equal_rows, rotation_of_viewer,
+};
 use crate::imaging::save::{SaveOptions, format_of_path};
 use crate::imaging::{
     Channels, Environment, EnvmapKind, MapShape, OpenHints, SampleKind, Siting, Stored, Transfer,
-    atomic,
+    atomic, face_name,
 };
 use crate::mapping::{Frame, Layout, MappingId};
 
@@ -149,9 +151,7 @@ impl Task {
     pub fn rows_of_latlong(&self) -> Option<u32> {
         let mapping = self.options.to.unwrap_or(MappingId::Latlong);
         let size = chart_size(mapping, self.options.size?);
-        let shape = Conversion::new(mapping, size, &PLAIN_SHAPE);
-        let shape = shape.target_shape(&PLAIN_SHAPE).ok()?;
-        Some(equal_height(MappingId::Latlong, &shape))
+        Some(equal_rows(MappingId::Latlong, mapping, size))
     }
 
     /// How a map of this shape is converted.
@@ -489,6 +489,7 @@ fn input(options: &ConvertOptions) -> Result<Input, ConvertError> {
         layout: None,
         frame: options.from_frame.as_deref().map(frame).transpose()?,
         arrange: arrange.map_err(|error| ConvertError::usage(format!("{error}")))?,
+        mirrored: options.from_mirrored,
         siting: options.from_samples.map(Siting::from),
         transfer: None,
     };
@@ -525,6 +526,7 @@ fn input(options: &ConvertOptions) -> Result<Input, ConvertError> {
             ),
             (options.from_frame.is_some(), "--from-frame"),
             (options.arrange.is_some(), "--arrange"),
+            (options.from_mirrored, "--from-mirrored"),
             (options.from_samples.is_some(), "--from-samples"),
         ];
         return match said.iter().find(|(given, _)| *given) {

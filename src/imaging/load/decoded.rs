@@ -1,7 +1,7 @@
 //! What a decoder leaves: texels in the form in which they become a picture without being moved.
 
 use super::{EnvmapKind, LoadProblem, reserved};
-use crate::imaging::srgb::{FROM_8, FROM_16};
+use crate::imaging::srgb::{FROM_8, FROM_16, linear_from_srgb};
 use crate::imaging::{Channels, Raster, Samples, Stored, Transfer};
 
 /// Texels and what the file says about them.
@@ -72,4 +72,26 @@ pub(super) fn light_of_8(codes: &[u8]) -> [f32; 3] {
 /// Light of a texel of three or four codes.
 pub(super) fn light_of_16(codes: &[u16]) -> [f32; 3] {
     [0, 1, 2].map(|channel| FROM_16[usize::from(codes[channel])])
+}
+
+/// Light of every texel of a picture, without opacity.
+pub(in crate::imaging) fn light_of_raster(raster: &Raster) -> Result<Vec<[f32; 3]>, LoadProblem> {
+    let count = raster.channels().count();
+    let is_coded = raster.transfer() == Transfer::Srgb;
+    match raster.samples() {
+        Samples::U8(codes) if is_coded => light_of_texels(codes, count, light_of_8),
+        Samples::U16(codes) if is_coded => light_of_texels(codes, count, light_of_16),
+        Samples::U8(shares) => light_of_texels(shares, count, |texel| {
+            [0, 1, 2].map(|channel| f32::from(texel[channel]) / 255.0)
+        }),
+        Samples::U16(shares) => light_of_texels(shares, count, |texel| {
+            [0, 1, 2].map(|channel| f32::from(texel[channel]) / 65535.0)
+        }),
+        Samples::F32(codes) if is_coded => light_of_texels(codes, count, |texel| {
+            [0, 1, 2].map(|channel| linear_from_srgb(texel[channel]))
+        }),
+        Samples::F32(light) => {
+            light_of_texels(light, count, |texel| [texel[0], texel[1], texel[2]])
+        }
+    }
 }

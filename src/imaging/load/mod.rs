@@ -22,6 +22,7 @@ use super::container::{self, Container};
 use super::sanitize::{BadTexels, Originals, sanitize};
 use super::{Image, Progress, Raster, Stage, Stored, read_whole};
 
+pub(super) use decoded::light_of_raster;
 pub use problem::{LoadError, LoadProblem};
 
 /// Most texels in a row of a latlong that is shown: twice the largest height.

@@ -94,9 +94,12 @@ pub enum LoadProblem {
         /// Rows.
         height: u64,
     },
-    /// It opens, but which map it is cannot be told, or it does not fit what was said of it.
+    /// It opens, but does not fit together, or nothing comes out of it.
     #[error("{0}")]
     Unclear(String),
+    /// It opens, but which map it is cannot be told, or is not what was said of it. Another word of the user's may help.
+    #[error("{0}")]
+    Untold(String),
     /// The header declares more memory than the picture needs.
     #[error(
         "the header declares {declared} bytes for {what}, the limit is {limit}; store it with fewer channels, smaller tiles and without levels"
@@ -145,17 +148,6 @@ impl From<ReadProblem> for LoadProblem {
 }
 
 impl LoadProblem {
-    /// Whether the file may well open, but not as a single latlong picture.
-    pub(crate) fn is_of_shape(&self) -> bool {
-        matches!(self, Self::NotLatlong { .. } | Self::TooLarge { .. })
-            || matches!(
-                self,
-                Self::Unsupported {
-                    format: Format::Ktx2 | Format::Dds,
-                    ..
-                }
-            )
-    }
     pub(crate) fn damaged(format: Format, reason: impl ToString) -> Self {
         Self::Damaged {
             format,

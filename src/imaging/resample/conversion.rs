@@ -1,12 +1,15 @@
 //! What is wanted of a conversion.
 
+use serde::{Deserialize, Serialize};
+
 use super::ResampleError;
 use crate::imaging::{Channels, MapShape, SampleKind, Siting, Transfer};
 use crate::mapping::{Axes, Frame, Layout, MappingId};
 use crate::math::Isa;
 
 /// How a value between texels is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")] // as [`Filter::id`]
 pub enum Filter {
     /// The texel that contains the place.
     Nearest,

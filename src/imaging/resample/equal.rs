@@ -43,7 +43,12 @@ pub fn chart_size(mapping: MappingId, height: u32) -> [u32; 2] {
 ///
 /// A latlong of 4096 x 2048 has 4096 around; so have six faces of 1024.
 pub fn equal_height(mapping: MappingId, source: &MapShape) -> u32 {
-    let source = texels_around(source.mapping, source.size.map(f64::from));
+    equal_rows(mapping, source.mapping, source.size)
+}
+
+/// As [`equal_height`], for a map of `source` with charts of `size` texels.
+pub fn equal_rows(mapping: MappingId, source: MappingId, size: [u32; 2]) -> u32 {
+    let source = texels_around(source, size.map(f64::from));
     let of_one_row = texels_around(mapping, [mapping.info().aspect, 1.0]);
     // `as` saturates.
     ((source / of_one_row).round() as u32).max(1)

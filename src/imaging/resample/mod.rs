@@ -43,7 +43,7 @@ mod texels;
 
 pub use crate::math::Isa;
 pub use conversion::{Conversion, Filter, FilteredIn};
-pub use equal::{chart_size, equal_height, rotation_of_viewer};
+pub use equal::{chart_size, equal_height, equal_rows, rotation_of_viewer};
 pub use levels::levels;
 pub use plan::{MOST_SIDE, Plan};
 pub use report::{Report, Skipped};

@@ -144,7 +144,7 @@ impl Plan {
                 &self.target,
             )));
         }
-        progress.enter(Stage::Computing);
+        progress.enter(Stage::Converting);
         match (self.source.samples, self.source.channels) {
             (SampleKind::U8, Channels::Rgb) => self.run_from::<u8, 3>(source, target, progress),
             (SampleKind::U8, Channels::Rgba) => self.run_from::<u8, 4>(source, target, progress),
