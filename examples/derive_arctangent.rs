@@ -1,11 +1,13 @@
-//! Derives the coefficients in `src/math/arctan.rs` and `src/math/approximation/own.rs` and measures how many of them are worth having.
+//! Derives the coefficients in `src/math/arctan.rs` and `src/math/approximation/own.rs` and measures how many of them are
+//! worth having.
 //!
-//! `cargo run --release --example derive_arctangent [STRIDE]` prints the tables and the constants as they stand in the
-//! source. It evaluates every float of the upper half of the interval, where the errors are largest, and every
-//! STRIDE-th of the lower (default 64; 1 takes a quarter of an hour). `tests/arctangent.rs` includes this file and
+//! `cargo run --release --example derive_arctangent [STRIDE]` prints the tables, every set of coefficients, and the constants
+//! as they stand in the source. It evaluates every float of the upper half of the interval, where the errors are largest,
+//! and every STRIDE-th of the lower (default 64; 1 takes a quarter of an hour). `tests/arctangent.rs` includes this file and
 //! holds the constants to it.
 //!
-//! Each polynomial has the smallest possible largest error of the whole function, relative or absolute, found by the Remez exchange:
+//! Each polynomial has the smallest possible largest error of the whole function, relative or absolute, found by the Remez
+//! exchange:
 //! solve for equal errors of alternating sign at as many points as there are unknowns and one more, move the points to
 //! where the error peaks, repeat. Coefficients are rounded to f32 one after another, lowest power first, and the
 //! remaining ones are fitted anew after each rounding, so that they make up for it.

@@ -161,9 +161,9 @@ const STEPS: usize = 256;
 /// Walks: twelve edges of the cube in three ways of stepping, and the twelve halves of the planes between the axes.
 const WALKS: usize = 12 * 3 + 12;
 
-/// Steps of each walk.
+/// Steps of each walk: an even number, so that its middle is met.
 fn steps(effort: usize) -> usize {
-    (effort / (3 * WALKS)).clamp(16, STEPS)
+    (effort / (3 * WALKS)).clamp(16, STEPS) & !1
 }
 
 /// The inputs of one walk, in order: for each step below, on and above the seam.

@@ -3,7 +3,7 @@
 use super::budgets::{self, Expectation};
 use super::families::{Family, walk_length};
 use super::{MEASURES, Measures, Row};
-use crate::lab::accuracy::direction_of;
+use crate::lab::accuracy::{direction_of, texel_rad};
 use crate::mapping::evaluator::{EvaluatorInfo, SINGLE};
 use crate::mapping::{ChartPoint, Coverage, DirList, Domain, MappingId, NOWHERE, PointList};
 use crate::math::{Isa, Vec3, angle_rad};
@@ -234,16 +234,36 @@ fn seam_jump(map: MappingId, p: ChartPoint<f64>, q: ChartPoint<f64>) -> f64 {
     if p.chart == q.chart && du.max(dv) < NEAR {
         return 0.0;
     }
-    let border = |p: ChartPoint<f64>| {
-        let on_side = p.u.min(1.0 - p.u) < p.v.min(1.0 - p.v);
-        if map.info().domain == Domain::Disc || on_side {
-            p.v
+    // On one chart both lie on the same border, which at a corner only the other of the two tells.
+    let (across, down) = (
+        |p: ChartPoint<f64>| p.u.min(1.0 - p.u),
+        |p: ChartPoint<f64>| p.v.min(1.0 - p.v),
+    );
+    let on_side = |p: ChartPoint<f64>, q: ChartPoint<f64>| {
+        let (u, v) = if p.chart == q.chart {
+            (across(p).max(across(q)), down(p).max(down(q)))
         } else {
-            p.u
-        }
+            (across(p), down(p))
+        };
+        map.info().domain == Domain::Disc || u < v
     };
-    let (s, t) = (border(p), border(q));
-    (s - t).abs().min((s + t - 1.0).abs())
+    let along = |p: ChartPoint<f64>, q| if on_side(p, q) { p.v } else { p.u };
+    let (s, t) = (along(p, q), along(q, p));
+    // The sides may be counted from opposite ends.
+    let t = if (s - t).abs() < (s + t - 1.0).abs() {
+        t
+    } else {
+        1.0 - t
+    };
+    // Near a pole places far apart on the chart are neighbours on the sphere: that counts, too.
+    let moved = if on_side(p, q) {
+        ChartPoint { v: t, ..p }
+    } else {
+        ChartPoint { u: t, ..p }
+    };
+    let ends = direction_of(map, p).zip(direction_of(map, moved));
+    let on_sphere = ends.map_or(f64::INFINITY, |(a, b)| angle_rad(a, b) / texel_rad(map, 1));
+    (s - t).abs().min(on_sphere)
 }
 
 /// Most ULP by which the coordinate that changes most over a run on one chart steps against its way.

@@ -11,7 +11,7 @@ impl LaneForm for Latlong {
         y: f32,
         z: f32,
     ) -> (u32, f32, f32) {
-        // Where the squares underflow the colatitude is below 1e-22 rad, and the longitude does not need them.
+        // Where a square underflows its part of the colatitude is below 1e-11 rad, and the longitude does not need it.
         let across = (x * x + z * z).sqrt();
         let longitude = add_angle::<A, FUSED>(arctangent, 2.0, x, z);
         let colatitude = add_angle::<A, FUSED>(arctangent, 0.0, across, y);

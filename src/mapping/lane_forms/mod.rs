@@ -1,6 +1,6 @@
 //! Formulas without a branch, for any arctangent: a loop over them becomes vector instructions.
 //!
-//! A form takes directions whose largest component lies within [`SIZES`], where no square overflows. [`forward`] brings the
+//! A form takes directions whose largest component lies within [`SIZES`], where squares keep their digits. [`forward`] brings the
 //! others there, one by one, by a power of two, and leaves out what is no direction.
 
 mod cube_family;
@@ -19,8 +19,9 @@ use super::{Domain, Mapping};
 use crate::math::approximation::{Arctangent, SineCosine};
 use crate::math::{Isa, Vec3, nearest_whole};
 
-/// Largest components that a form takes: as [`Vec3::scaled_direction`].
-const SIZES: RangeInclusive<f32> = 1.0 / (1_u64 << 60) as f32..=(1_u64 << 60) as f32;
+/// Largest components that a form takes. No square overflows; and of components down to 2^-39 of the largest, whose angle f32
+/// shows, none is subnormal.
+const SIZES: RangeInclusive<f32> = 1.0 / (1_u64 << 24) as f32..=(1_u64 << 60) as f32;
 
 /// A mapping's formula without a branch. `FUSED` says whether products and sums are fused, as far as the form uses it.
 pub trait LaneForm: Mapping {
@@ -149,7 +150,7 @@ impl<M: LaneForm, A: Arctangent, const FUSED: bool> NullaryFnOnce for Forward<'_
             }
             for k in 0..n {
                 let dir = Vec3::new(x[k], y[k], z[k]);
-                (chart[k], u[k], v[k]) = match dir.scaled_direction() {
+                (chart[k], u[k], v[k]) = match dir.scaled_direction().map(near_one) {
                     Some(d) => clamped_point::<M, A, FUSED>(
                         self.angles,
                         with_side(d.x, dir.x),
@@ -228,6 +229,13 @@ fn clamped_point<M: LaneForm, A: Arctangent, const FUSED: bool>(
 ) -> (u32, f32, f32) {
     let (chart, u, v) = M::chart_point::<A, FUSED>(angles, x, y, z);
     (chart, clamp_unit(u), clamp_unit(v))
+}
+
+/// The direction times a power of two that brings its largest component, which lies within 2^-60 and 2^60, into [1, 2).
+fn near_one(dir: Vec3<f32>) -> Vec3<f32> {
+    const EXPONENT: u32 = 0xFF << 23;
+    // Twice the bias of exponents, less this one's.
+    dir * f32::from_bits((254 << 23) - (dir.max_abs().to_bits() & EXPONENT))
 }
 
 /// The scaled component, or the smallest number on its side of 0 where scaling has made it 0: charts are told apart by signs.
