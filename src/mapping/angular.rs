@@ -2,8 +2,8 @@
 //!
 //! Azimuthal equidistant: centre +z, the whole rim -z.
 
-use super::{evaluator, seed_forms};
 use super::{ChartPoint, Coverage, Domain, Mapping, MappingInfo, Step};
+use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3, unit_in_plane};
 use std::f64::consts::FRAC_1_PI;
 

@@ -1,11 +1,11 @@
 //! Cube map: six pictures taken with a square field of view of 90 degrees, the gnomonic plane as it is.
 
-use super::evaluator;
 use super::chart::{to_signed, to_unit};
 use super::cube_face::{
     self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, is_side,
     largest_component, shallow_latitudes,
 };
+use super::evaluator;
 use super::{
     AngleLanes, ChartPoint, Convention, DirLanes, Lane, Line, Mapping, MappingInfo, PointLanes,
     Step,

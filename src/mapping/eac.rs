@@ -1,10 +1,10 @@
 //! Equi-angular cube: each face is divided by angle instead of by tangent.
 
-use super::evaluator;
 use super::cube_face::{
     self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, is_side,
     largest_component, shallow_latitudes,
 };
+use super::evaluator;
 use super::{AngleLanes, ChartPoint, DirLanes, Lane, Line, Mapping, MappingInfo, PointLanes, Step};
 use crate::math::{Real, Vec3, atan_unit};
 use std::f64::consts::FRAC_1_PI;

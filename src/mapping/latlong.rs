@@ -3,8 +3,8 @@
 //! The centre of the picture looks along +z, +x lies to the right, +y is up. Grimm and Niebruegge, equations 1 to 4.
 
 use super::{AngleLanes, DirLanes, LANES, Lane, Line, PointLanes};
-use super::{evaluator, seed_forms};
 use super::{ChartPoint, Convention, Erratum, Mapping, MappingInfo, Step};
+use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3, atan2_turns};
 use std::f64::consts::FRAC_1_PI;
 

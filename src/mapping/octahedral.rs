@@ -2,8 +2,8 @@
 //!
 //! The centre of the square is +y, the four corners are -y, the edges' middles +-x and +-z.
 
-use super::evaluator;
 use super::chart::{to_signed, to_unit};
+use super::evaluator;
 use super::{ChartPoint, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
@@ -104,9 +104,7 @@ pub(super) const BELOW: u32 = 4;
 pub(super) fn octant<R: Real>(point: ChartPoint<R>) -> u32 {
     let (x, z) = (to_signed(point.u), to_signed(point.v));
     let bit = |is_so: bool, bit: u32| if is_so { bit } else { 0 };
-    bit(x < R::zero(), LEFT)
-        | bit(z < R::zero(), BEHIND)
-        | bit(x.abs() + z.abs() > R::one(), BELOW)
+    bit(x < R::zero(), LEFT) | bit(z < R::zero(), BEHIND) | bit(x.abs() + z.abs() > R::one(), BELOW)
 }
 
 /// A point as one face sees it.
@@ -119,12 +117,15 @@ pub(super) struct Octant<R> {
 
 impl<R: Real> Octant<R> {
     pub fn of(facet: u32, point: ChartPoint<R>) -> Self {
-        let sign = |bit: u32| if facet & bit == 0 { R::one() } else { -R::one() };
+        let sign = |bit: u32| {
+            if facet & bit == 0 {
+                R::one()
+            } else {
+                -R::one()
+            }
+        };
         let signs = [sign(LEFT), sign(BEHIND)];
-        let legs = [
-            to_signed(point.u) * signs[0],
-            to_signed(point.v) * signs[1],
-        ];
+        let legs = [to_signed(point.u) * signs[0], to_signed(point.v) * signs[1]];
         Self { signs, legs }
     }
 }

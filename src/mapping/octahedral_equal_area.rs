@@ -2,10 +2,10 @@
 //!
 //! Each octant's triangle is mapped with equal area: 4 pi sr per unit of chart area everywhere.
 
-use super::{evaluator, seed_forms};
 use super::chart::{to_signed, to_unit};
 use super::octahedral::{BELOW, Octant, fold, octant, wrap};
 use super::{ChartPoint, Claims, Mapping, MappingInfo, Step};
+use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3};
 use std::f64::consts::FRAC_1_PI;
 
@@ -21,10 +21,12 @@ impl Mapping for OctahedralEqualArea {
         charts: &["square"],
         claims: Claims {
             equal_area: true,
-        ..MappingInfo::PLAIN.claims
+            ..MappingInfo::PLAIN.claims
         },
-            evaluators: || {
-            evaluator::with_arctangents_and::<OctahedralEqualArea>(seed_forms::OCTAHEDRAL_EQUAL_AREA)
+        evaluators: || {
+            evaluator::with_arctangents_and::<OctahedralEqualArea>(
+                seed_forms::OCTAHEDRAL_EQUAL_AREA,
+            )
         },
         ..MappingInfo::PLAIN
     };

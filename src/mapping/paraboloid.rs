@@ -20,9 +20,9 @@ impl Mapping for Paraboloid {
         layout: Layout::Pair,
         claims: Claims {
             conformal: true,
-        ..MappingInfo::PLAIN.claims
+            ..MappingInfo::PLAIN.claims
         },
-            evaluators: || evaluator::plain_and::<Paraboloid>(&[]),
+        evaluators: || evaluator::plain_and::<Paraboloid>(&[]),
         ..MappingInfo::PLAIN
     };
 

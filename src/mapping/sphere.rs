@@ -3,11 +3,11 @@
 //! The centre of the chart is the direction back to the viewer, -z; the whole rim is +z, the one direction that has no
 //! unique image. The map is exactly equal-area (16 sr per unit of chart area); it fails by shape, at the rim.
 
-use super::{evaluator, seed_forms};
 use super::chart::height_squared;
 use super::{
     ChartPoint, Claims, Convention, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot,
 };
+use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3};
 
 /// See the [module](self).
@@ -24,9 +24,9 @@ impl Mapping for Sphere {
         coverage: Coverage::SphereLessPoint([0.0, 0.0, 1.0]),
         claims: Claims {
             equal_area: true,
-        ..MappingInfo::PLAIN.claims
+            ..MappingInfo::PLAIN.claims
         },
-            evaluators: || evaluator::plain_and::<Sphere>(seed_forms::SPHERE),
+        evaluators: || evaluator::plain_and::<Sphere>(seed_forms::SPHERE),
         weak_spots: &[WeakSpot {
             dir: [0.0, 0.0, 1.0],
             great_circle: false,
