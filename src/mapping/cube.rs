@@ -2,8 +2,8 @@
 
 use super::chart::{to_signed, to_unit};
 use super::cube_face::{
-    self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, is_side,
-    largest_component, shallow_latitudes,
+    self, face_lanes, frame_lanes, from_gnomonic, gnomonic, is_side, largest_component,
+    largest_component_lane, shallow_latitudes,
 };
 use super::evaluator;
 use super::{
@@ -46,7 +46,9 @@ impl Mapping for Cube {
 
     #[inline(always)]
     fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
-        face_lanes(dirs, points, gnomonic_lane, |_, a, b| (0.5 * a, 0.5 * b));
+        face_lanes(dirs, points, largest_component_lane, |_, a, b| {
+            (0.5 * a, 0.5 * b)
+        });
     }
 
     fn line(_: usize, coordinate: f64) -> Line {

@@ -262,77 +262,86 @@ pub fn meeting_faces<R: Real>(dir: Vec3<R>) -> Vec<u32> {
         .collect()
 }
 
-/// Face and place on its gnomonic plane, without a branch; the rule of [`largest_component`] for ties.
+/// A face and a direction in its frame, found without a branch: [`to_frame`].
+#[derive(Clone, Copy, Debug)]
+pub struct Framed {
+    /// Index of the face.
+    pub face: u32,
+    /// sc.
+    pub across: f32,
+    /// tc.
+    pub down: f32,
+    /// |ma|.
+    pub axis: f32,
+}
+
+/// The frame of the face on the axis that is chosen.
 #[inline(always)]
-pub fn gnomonic_lane(x: f32, y: f32, z: f32) -> (u32, f32, f32) {
-    let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
-    let is_z = az >= ax && az >= ay;
-    let is_y = !is_z && ay >= ax;
-    let pair = if is_z {
-        4
-    } else if is_y {
+fn framed(is_y: bool, is_z: bool, x: f32, y: f32, z: f32) -> Framed {
+    let is_x = !is_y & !is_z;
+    let along = if is_y {
+        y
+    } else if is_z {
+        z
+    } else {
+        x
+    };
+    let is_negative = along < 0.0;
+    let pair = if is_y {
         2
+    } else if is_z {
+        4
     } else {
         0
-    };
-    let along = if is_z {
-        z
-    } else if is_y {
-        y
-    } else {
-        x
-    };
-    on_face(pair + u32::from(along < 0.0), x, y, z)
-}
-
-/// As [`gnomonic_lane`] with the rule of [`sign_table`].
-#[inline(always)]
-pub fn sign_table_lane(x: f32, y: f32, z: f32) -> (u32, f32, f32) {
-    let (a, b, c) = (y > -x, y > x, y > -z);
-    let (d, e, f) = (y > z, x > -z, z > x);
-    let face = if a & !b & e & !f { 0 } else { 1 };
-    let face = if !c & d & !e & !f { 5 } else { face };
-    let face = if c & !d & e & f { 4 } else { face };
-    let face = if !(a | b | c | d) { 3 } else { face };
-    let face = if a & b & c & d { 2 } else { face };
-    on_face(face, x, y, z)
-}
-
-/// A face and the place on its gnomonic plane: [`to_frame`] and the division, without a branch.
-#[inline(always)]
-fn on_face(face: u32, x: f32, y: f32, z: f32) -> (u32, f32, f32) {
-    let (is_x, is_y) = (face < 2, face & 6 == 2);
-    let is_negative = face & 1 != 0;
-    let along = if is_x {
-        x
-    } else if is_y {
-        y
-    } else {
-        z
     };
     let across = if is_x { -z } else { x };
     let down = if is_y { z } else { -y };
     // Only the y faces keep their column, and only they turn their row, when the axis is negative.
-    let across = if is_negative & !is_y { -across } else { across };
-    let down = if is_negative & is_y { -down } else { down };
-    let inverse = 1.0 / along.abs();
-    (face, across * inverse, down * inverse)
+    Framed {
+        face: pair + u32::from(is_negative),
+        across: if is_negative & !is_y { -across } else { across },
+        down: if is_negative & is_y { -down } else { down },
+        axis: along.abs(),
+    }
 }
 
-/// Chart points of many directions: their faces and gnomonic places by `choose`, and u - 1/2 and v - 1/2 there by `place`.
+/// The face of [`largest_component`].
+#[inline(always)]
+pub fn largest_component_lane(x: f32, y: f32, z: f32) -> Framed {
+    let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
+    let is_z = (az >= ax) & (az >= ay);
+    framed(!is_z & (ay >= ax), is_z, x, y, z)
+}
+
+/// The face of [`sign_table`]: of the largest component; on ties the first of -y, -z, +x or -x, +z, +y.
+#[inline(always)]
+pub fn sign_table_lane(x: f32, y: f32, z: f32) -> Framed {
+    let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
+    let is_y = if y < 0.0 {
+        (ay >= ax) & (ay >= az)
+    } else {
+        (ay > ax) & (ay > az)
+    };
+    // +z is before +y, and where it meets -y that has been chosen.
+    let is_z = !is_y & (az >= ay) & if z < 0.0 { az >= ax } else { az > ax };
+    framed(is_y, is_z, x, y, z)
+}
+
+/// Chart points of many directions: their faces by `choose`, and u - 1/2 and v - 1/2 by `place` of the gnomonic plane.
 #[inline(always)]
 pub fn face_lanes(
     dirs: &DirLanes,
     points: &mut PointLanes,
-    choose: impl Fn(f32, f32, f32) -> (u32, f32, f32),
+    choose: impl Fn(f32, f32, f32) -> Framed,
     place: impl Fn(u32, f32, f32) -> (f32, f32),
 ) {
     points.base_u.fill(0.5);
     points.base_v.fill(0.5);
     for k in 0..LANES {
-        let (face, a, b) = choose(dirs.x[k], dirs.y[k], dirs.z[k]);
-        points.chart[k] = face;
-        (points.rest_u[k], points.rest_v[k]) = place(face, a, b);
+        let d = choose(dirs.x[k], dirs.y[k], dirs.z[k]);
+        let inverse = 1.0 / d.axis;
+        points.chart[k] = d.face;
+        (points.rest_u[k], points.rest_v[k]) = place(d.face, d.across * inverse, d.down * inverse);
     }
 }
 

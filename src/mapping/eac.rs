@@ -1,8 +1,8 @@
 //! Equi-angular cube: each face is divided by angle instead of by tangent.
 
 use super::cube_face::{
-    self, face_lanes, frame_lanes, from_gnomonic, gnomonic, gnomonic_lane, is_side,
-    largest_component, shallow_latitudes,
+    self, face_lanes, frame_lanes, from_gnomonic, gnomonic, is_side, largest_component,
+    largest_component_lane, shallow_latitudes,
 };
 use super::evaluator;
 use super::{AngleLanes, ChartPoint, DirLanes, Lane, Line, Mapping, MappingInfo, PointLanes, Step};
@@ -39,7 +39,7 @@ impl Mapping for Eac {
 
     #[inline(always)]
     fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
-        face_lanes(dirs, points, gnomonic_lane, |_, a, b| {
+        face_lanes(dirs, points, largest_component_lane, |_, a, b| {
             let place = |c: f32| atan_unit(c) * (2.0 * FRAC_1_PI) as f32;
             (place(a), place(b))
         });

@@ -1,73 +1,13 @@
-//! The cube family: the face by comparisons, the frame by choices, then the warp.
+//! The cube family: the face and its frame, then the warp.
 
 use std::f64::consts::{FRAC_1_PI, SQRT_2};
 
 use super::{Arctangent, LaneForm, SineCosine, unit};
 use crate::mapping::ccm::{Ccm, HALF_EDGE_RAD};
 use crate::mapping::cube::Cube;
+use crate::mapping::cube_face::{largest_component_lane, sign_table_lane};
 use crate::mapping::eac::Eac;
 use crate::math::approximation::multiply_add;
-
-/// A face and a direction in its frame: `OpenGL`'s sc and tc, and the absolute value of ma.
-struct Framed {
-    face: u32,
-    across: f32,
-    down: f32,
-    axis: f32,
-}
-
-/// The frame of the face on the axis that is chosen.
-#[inline(always)]
-fn framed(is_y: bool, is_z: bool, x: f32, y: f32, z: f32) -> Framed {
-    let is_x = !is_y & !is_z;
-    let along = if is_y {
-        y
-    } else if is_z {
-        z
-    } else {
-        x
-    };
-    let is_negative = along < 0.0;
-    let pair = if is_y {
-        2
-    } else if is_z {
-        4
-    } else {
-        0
-    };
-    let across = if is_x { -z } else { x };
-    let down = if is_y { z } else { -y };
-    // Only the y faces keep their column, and only they turn their row, when the axis is negative.
-    Framed {
-        face: pair + u32::from(is_negative),
-        across: if is_negative & !is_y { -across } else { across },
-        down: if is_negative & is_y { -down } else { down },
-        axis: along.abs(),
-    }
-}
-
-/// The face of the largest component; on ties z wins over y over x.
-#[inline(always)]
-fn largest_component(x: f32, y: f32, z: f32) -> Framed {
-    let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
-    let is_z = (az >= ax) & (az >= ay);
-    framed(!is_z & (ay >= ax), is_z, x, y, z)
-}
-
-/// The face of the largest component; on ties the first of -y, -z, +x or -x, +z, +y wins, as in the sign table of Grimm and
-/// Niebruegge.
-#[inline(always)]
-fn sign_table(x: f32, y: f32, z: f32) -> Framed {
-    let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
-    let is_y = if y < 0.0 {
-        (ay >= ax) & (ay >= az)
-    } else {
-        (ay > ax) & (ay > az)
-    };
-    // +z is before +y, and where it meets -y that has been chosen.
-    let is_z = !is_y & (az >= ay) & if z < 0.0 { az >= ax } else { az > ax };
-    framed(is_y, is_z, x, y, z)
-}
 
 /// The direction with these coordinates in the frame of a face.
 #[inline(always)]
@@ -97,7 +37,7 @@ impl LaneForm for Cube {
         y: f32,
         z: f32,
     ) -> (u32, f32, f32) {
-        let d = largest_component(x, y, z);
+        let d = largest_component_lane(x, y, z);
         let scale = 0.5 / d.axis;
         (
             d.face,
@@ -126,7 +66,7 @@ impl LaneForm for Eac {
         y: f32,
         z: f32,
     ) -> (u32, f32, f32) {
-        let d = largest_component(x, y, z);
+        let d = largest_component_lane(x, y, z);
         let scale = 1.0 / d.axis;
         (
             d.face,
@@ -161,7 +101,7 @@ impl LaneForm for Ccm {
         y: f32,
         z: f32,
     ) -> (u32, f32, f32) {
-        let d = sign_table(x, y, z);
+        let d = sign_table_lane(x, y, z);
         let is_x = d.face < 2;
         let (p, t) = if is_x {
             (d.down, d.across)
@@ -226,11 +166,11 @@ mod tests {
         for [x, y, z] in patterns.into_iter().chain(near) {
             let dir = Vec3::new(x, y, z);
             let table = cube_face::sign_table(dir);
-            assert_eq!(sign_table(x, y, z).face, table, "{dir:?}");
+            assert_eq!(sign_table_lane(x, y, z).face, table, "{dir:?}");
             let largest = cube_face::largest_component(dir);
-            assert_eq!(largest_component(x, y, z).face, largest, "{dir:?}");
+            assert_eq!(largest_component_lane(x, y, z).face, largest, "{dir:?}");
             disagree += u32::from(table != largest);
-            let d = sign_table(x, y, z);
+            let d = sign_table_lane(x, y, z);
             assert_eq!(from_frame(d.face, d.across, d.down, d.axis), [x, y, z]);
         }
         assert!(disagree > 100, "the rules differ on ties: {disagree}");
