@@ -29,7 +29,7 @@ const LOAD: usize = RGB + TAP;
 /// What comes from memory at once, on all processors that are common.
 const CACHE_LINE_BYTES: usize = 64;
 
-/// How many rows beside its own a block asks for: fewer come late, more are forgotten again. Of 2, 4, 8, 12 and 16 the best.
+/// How many rows beside its own a block asks for: fewer come late, more are forgotten again.
 const ROWS_AHEAD: usize = 4;
 
 /// The charts of a source, upright, as the loop finds them: more than any mapping has, so that an index is masked, not checked.
@@ -155,26 +155,20 @@ impl<'a, S: Stored> Fused<'a, S> {
             difference |= chart ^ first;
         }
         block.chart = (difference == 0).then_some(first);
-        let mut any = 0;
         if let Some(chart) = block.chart {
             let chart = self.chart(chart);
             for k in 0..LANES {
-                let (at, is_on) = self.at(chart, places.column[k], places.row[k]);
-                block.starts[k] = at;
-                block.off[k] = u32::from(!is_on);
-                any |= block.off[k];
+                let (column, row) = (places.column[k], places.row[k]);
+                (block.starts[k], block.off[k]) = self.at(chart, column, row);
             }
         } else {
             // Charts meet in few blocks.
             for k in 0..LANES {
-                let chart = self.chart(places.chart[k]);
-                let (at, is_on) = self.at(chart, places.column[k], places.row[k]);
-                block.starts[k] = at;
-                block.off[k] = u32::from(!is_on);
-                any |= block.off[k];
+                let (column, row) = (places.column[k], places.row[k]);
+                (block.starts[k], block.off[k]) = self.at(self.chart(places.chart[k]), column, row);
             }
         }
-        block.has_off = any != 0;
+        block.has_off = block.off.iter().fold(0, |any, off| any | off) != 0;
         // Neighbours may lie in rows of their own: each fourth stands for those that share a line with it.
         for k in (0..LANES).step_by(4) {
             let chart = self.chart(places.chart[k]);
@@ -195,9 +189,9 @@ impl<'a, S: Stored> Fused<'a, S> {
         &self.charts[index as usize % MOST_CHARTS]
     }
 
-    /// Where the samples of a place begin; 0 where its taps leave the chart.
+    /// Where the samples of a place begin, and 0; (0, 1) where its taps leave the chart.
     #[inline(always)]
-    fn at(&self, chart: &Chart<'a, S>, column: i32, row: i32) -> (u32, bool) {
+    fn at(&self, chart: &Chart<'a, S>, column: i32, row: i32) -> (u32, u32) {
         let [last_column, last_row] = self.last;
         // Negative numbers become too large ones.
         let (column, row) = (column as u32, row as u32);
@@ -206,7 +200,7 @@ impl<'a, S: Stored> Fused<'a, S> {
             .wrapping_add(row.wrapping_mul(chart.down))
             .wrapping_add(column.wrapping_mul(RGB as u32));
         let is_on = (column < last_column) & (row < last_row) & (at < chart.end);
-        (if is_on { at } else { 0 }, is_on)
+        if is_on { (at, 0) } else { (0, 1) }
     }
 
     /// Hands the samples at a block's places to `mixing`.
@@ -282,29 +276,27 @@ impl<S: Stored, M: Mixing<S>> NullaryFnOnce for Work<'_, '_, '_, S, M> {
         for index in 0..=count {
             // One block ahead, so that its memory is asked for early.
             if index < count {
-                let column = patch.columns.start + (index / rows * LANES) as u32;
-                let row = patch.rows.start + (index % rows) as u32;
-                let (chart, places) = (patch.chart, &mut next.places);
-                kernel
-                    .places
-                    .fill_lanes(chart, row, column, &mut scratch, places);
+                let run = patch.run(index % rows, index / rows * LANES);
+                let places = &mut next.places;
+                kernel.places.fill_lanes(
+                    run.chart,
+                    run.row,
+                    run.columns.start,
+                    &mut scratch,
+                    places,
+                );
                 kernel.locate(next);
             }
             if let Some(index) = index.checked_sub(1) {
                 kernel.load(now, &mut self.mixing);
                 let mixed = self.mixing.finish(&now.places);
-                let before = index / rows * LANES * RGB;
-                let at = patch.at(index % rows) + before;
-                let samples = mixed.len().min(patch.samples - before);
+                let (row, column) = (index % rows, index / rows * LANES);
+                let at = patch.at(row) + column * RGB;
+                let samples = mixed.len().min(patch.samples - column * RGB);
                 let out = &mut self.out[at..at + samples];
                 out.copy_from_slice(&mixed[..samples]);
                 if now.has_off {
-                    let run = Run {
-                        chart: patch.chart,
-                        row: patch.rows.start + (index % rows) as u32,
-                        columns: patch.columns.start + (index / rows * LANES) as u32
-                            ..patch.columns.end,
-                    };
+                    let run = patch.run(row, column);
                     kernel.mend(&run, now, out);
                 }
             }

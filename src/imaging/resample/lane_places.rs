@@ -77,7 +77,8 @@ impl LanePlaces {
     pub fn new(geometry: &Geometry, isa: Isa) -> Option<Self> {
         let (source, target) = (&geometry.source, &geometry.target);
         let is_able = source.mapping.has_lanes() && target.mapping.has_lanes();
-        if !is_able || geometry.is_proportional() {
+        // Lanes know charts, not facets.
+        if !is_able || source.facets > 1 || geometry.is_proportional() {
             return None;
         }
         // Only turned about y, or upside down, small x and z stay small.

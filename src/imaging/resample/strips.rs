@@ -34,6 +34,16 @@ pub(super) struct Patch {
 }
 
 impl Patch {
+    /// A row, counted from the patch's first, from a column on that is counted so too.
+    #[inline(always)]
+    pub fn run(&self, row: usize, column: usize) -> Run {
+        Run {
+            chart: self.chart,
+            row: self.rows.start + row as u32,
+            columns: self.columns.start + column as u32..self.columns.end,
+        }
+    }
+
     /// The first sample of a row, counted from the patch's first.
     #[inline(always)]
     pub fn at(&self, index: usize) -> usize {
@@ -56,14 +66,13 @@ pub(super) trait Kernel<T>: Sync {
 
     /// Writes a patch, in whatever order suits.
     fn write_patch(&self, patch: &Patch, scratch: &mut Scratch, out: &mut [T]) {
-        for (index, row) in patch.rows.clone().enumerate() {
-            let run = Run {
-                chart: patch.chart,
-                row,
-                columns: patch.columns.clone(),
-            };
-            let at = patch.at(index);
-            self.write(&run, scratch, &mut out[at..at + patch.samples]);
+        for row in 0..patch.rows.len() {
+            let at = patch.at(row);
+            self.write(
+                &patch.run(row, 0),
+                scratch,
+                &mut out[at..at + patch.samples],
+            );
         }
     }
 }
