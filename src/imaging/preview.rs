@@ -73,7 +73,7 @@ impl Preview {
             problem: LoadProblem::Unclear(text),
             name: environment.id(),
         };
-        let map = EnvironmentMap::of_latlong(&image).map_err(|error| failed(error.to_string()))?;
+        let map = EnvironmentMap::from_latlong(image).map_err(|error| failed(error.to_string()))?;
         Self::exposed(&map, 0.0, progress).map_err(|error| failed(error.to_string()))
     }
 }
