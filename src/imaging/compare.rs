@@ -76,15 +76,24 @@ impl Sum {
     }
 }
 
-/// How far `b` is from `a`; `None` unless both have the same mapping, size, siting and axes and share texels with directions.
-pub fn compare(a: &EnvironmentMap, b: &EnvironmentMap) -> Option<Difference> {
+/// How far `b` is from `a`. The progress is only asked whether all was cancelled.
+///
+/// # Errors
+/// [`ResampleError::OtherShape`] unless both have the same mapping, size, siting and axes and share texels with directions;
+/// [`ResampleError::Cancelled`].
+pub fn compare(
+    a: &EnvironmentMap,
+    b: &EnvironmentMap,
+    progress: &Progress,
+) -> Result<Difference, ResampleError> {
+    let refuse = |why: &str| ResampleError::OtherShape(why.to_owned());
     let (shape, other) = (a.shape(), b.shape());
     let is_alike = shape.mapping == other.mapping
         && shape.size == other.size
         && shape.siting == other.siting
         && shape.world_from_map == other.world_from_map;
     if !is_alike {
-        return None;
+        return Err(refuse("the maps have other mappings, sizes or axes"));
     }
     let mut pictures: Vec<Vec<f32>> = a
         .rasters()
@@ -98,8 +107,11 @@ pub fn compare(a: &EnvironmentMap, b: &EnvironmentMap) -> Option<Difference> {
         };
         let rows: Vec<(Sum, Vec<[f32; 3]>)> = (0..shape.size[1])
             .into_par_iter()
-            .map(|row| compare_row(a, b, chart as u32, row))
-            .collect();
+            .map(|row| match progress.is_cancelled() {
+                true => Err(ResampleError::Cancelled),
+                false => Ok(compare_row(a, b, chart as u32, row)),
+            })
+            .collect::<Result<_, _>>()?;
         let width = a.rasters()[placement.raster].width() as usize;
         let picture = &mut pictures[placement.raster];
         for ((sum, colours), row) in rows.into_iter().zip(0..) {
@@ -112,15 +124,17 @@ pub fn compare(a: &EnvironmentMap, b: &EnvironmentMap) -> Option<Difference> {
             }
         }
     }
-    let worst = total.worst.filter(|_| total.weight > 0.0)?;
+    let no_texel = || refuse("no texel of the source has a direction");
+    let worst = total.worst.filter(|_| total.weight > 0.0);
+    let worst = worst.ok_or_else(no_texel)?;
     let rms = (total.squares / (3.0 * total.weight)).sqrt();
     let peak = total.peak.max(1.0);
-    Some(Difference {
+    Ok(Difference {
         rms,
         peak,
         psnr_db: 20.0 * (peak / rms).log10(),
         worst,
-        residual: residual(a, pictures)?,
+        residual: residual(a, pictures).ok_or_else(no_texel)?,
     })
 }
 
@@ -234,9 +248,7 @@ pub fn loss(
     };
     let (returned, second) = resample(&there, &conversion, progress)?;
     let times = [middle - start, middle.elapsed()];
-    let difference = compare(source, &returned).ok_or_else(|| {
-        ResampleError::OtherShape("no texel of the source has a direction".to_owned())
-    })?;
+    let difference = compare(source, &returned, progress)?;
     Ok(Loss {
         difference,
         reports: [first, second],
@@ -269,11 +281,17 @@ mod tests {
     #[test]
     fn equal_maps_do_not_differ_and_others_are_not_compared() {
         let map = grey(MappingId::Cube, [4, 4]);
-        let difference = compare(&map, &map).unwrap();
+        let difference = compare(&map, &map, &Progress::new()).unwrap();
         assert_eq!((difference.rms, difference.peak), (0.0, 1.0));
         assert_eq!(difference.psnr_db, f64::INFINITY);
-        assert_eq!(compare(&map, &grey(MappingId::Cube, [4, 5])), None);
-        assert_eq!(compare(&map, &grey(MappingId::Eac, [4, 4])), None);
+        for other in [grey(MappingId::Cube, [4, 5]), grey(MappingId::Eac, [4, 4])] {
+            let refused = compare(&map, &other, &Progress::new());
+            assert!(matches!(refused, Err(ResampleError::OtherShape(_))));
+        }
+        let progress = Progress::new();
+        progress.cancel();
+        let cancelled = compare(&map, &map, &progress);
+        assert!(matches!(cancelled, Err(ResampleError::Cancelled)));
     }
 
     #[test]
@@ -282,7 +300,7 @@ mod tests {
         let mut other = map.clone();
         set(&mut other, 2, (3 * 4 + 1) * 3 + 1, 0.75);
         set(&mut other, 5, 0, 0.625);
-        let difference = compare(&map, &other).unwrap();
+        let difference = compare(&map, &other, &Progress::new()).unwrap();
         let worst = difference.worst;
         assert_eq!((worst.chart, worst.texel), (2, [1, 3]));
         assert_eq!(worst.difference, 0.25);
@@ -318,7 +336,7 @@ mod tests {
         let rms = |row: usize| {
             let mut other = map.clone();
             (0..8).for_each(|x| set(&mut other, 0, (row * 8 + x) * 3, 1.0));
-            compare(&map, &other).unwrap().rms
+            compare(&map, &other, &Progress::new()).unwrap().rms
         };
         let sin = |row: f64| (std::f64::consts::PI * (row + 0.5) / 32.0).sin();
         let (observed, expected) = ((rms(16) / rms(0)).powi(2), sin(16.0) / sin(0.0));
@@ -335,7 +353,7 @@ mod tests {
         set(&mut map, 0, 7, -20.0);
         let mut other = map.clone();
         set(&mut other, 0, 40, 1.5);
-        let difference = compare(&map, &other).unwrap();
+        let difference = compare(&map, &other, &Progress::new()).unwrap();
         assert_eq!(difference.peak, 20.0);
         let expected = 20.0 * (20.0 / difference.rms).log10();
         assert!((difference.psnr_db - expected).abs() < 1e-9);

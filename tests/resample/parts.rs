@@ -222,7 +222,7 @@ fn there_and_back_loses_little() {
     budgets.at_least_db("the same, without rims that are points", regular, 67.0);
     let map = map_of(&shape(MappingId::Cube, [48, 48]), smooth);
     let other = map_of(map.shape(), |d| smooth(d).map(|c| c + 0.1));
-    let broken = compare(&map, &other).unwrap().psnr_db;
+    let broken = compare(&map, &other, &Progress::new()).unwrap().psnr_db;
     budgets.must_break_db("a tenth lighter", broken, 50.0);
     budgets.check();
 }

@@ -1,5 +1,6 @@
 //! `sixfold convert`: one environment map into another mapping, layout, size and format.
 
+mod ends;
 mod error;
 mod interrupt;
 mod names;
@@ -20,10 +21,11 @@ use std::time::{Duration, Instant};
 
 use super::bar::Bar;
 use crate::imaging::{Environment, EnvironmentMap, OpenHints, Progress};
+use ends::{FilesOut, Input, Output};
 use names::Name;
 use report::{Done, Printed};
 use source::Source;
-use task::{FilesOut, Input, Output, Task};
+use task::Task;
 use work::{Converter, Files};
 
 /// Converts what the options say.

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
+use super::ends::FilesOut;
 use super::error::ConvertError;
 use super::report::Times;
-use super::task::{FilesOut, Target, Task};
+use super::task::{Target, Task};
 use crate::imaging::resample::{Conversion, Plan, Report, levels};
 use crate::imaging::save::{Content, SaveOptions, save};
 use crate::imaging::{Container, EnvironmentMap, MapShape, Progress, Stored};
