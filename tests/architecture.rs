@@ -21,7 +21,7 @@ const LAYERS: [(&str, &[&str]); 10] = [
     (
         "app",
         &[
-            "math", "mapping", "optics", "scene", "imaging", "meshes", "gpu",
+            "math", "mapping", "optics", "scene", "imaging", "lab", "meshes", "gpu",
         ],
     ),
 ];

@@ -221,13 +221,19 @@ fn a_still_window_draws_nothing_and_a_probe_move_redraws_no_map() {
     );
     // A hidden panel takes its texture along, and shown again it is drawn again.
     let textures = ui.state().explorer().report().textures;
-    run(&mut ui, Action::SetPanelOpen(MappingId::Latlong, false));
+    run(
+        &mut ui,
+        Action::SetPaneOpen(Pane::Map(MappingId::Latlong), false),
+    );
     assert_eq!(
         ui.state().explorer().report().textures,
         textures - 2,
         "the panel and its map"
     );
-    run(&mut ui, Action::SetPanelOpen(MappingId::Latlong, true));
+    run(
+        &mut ui,
+        Action::SetPaneOpen(Pane::Map(MappingId::Latlong), true),
+    );
     assert_eq!(totals(&ui).map_bakes, still.map_bakes + 1);
 }
 
@@ -345,7 +351,10 @@ fn undo_takes_back_changes_only_and_a_hidden_panel_is_not_maximised() {
     let pane = Pane::Map(MappingId::Latlong);
     run(&mut ui, Action::SetMaximised(Some(pane)));
     assert_eq!(ui.state().explorer().state().maximised, Some(pane));
-    run(&mut ui, Action::SetPanelOpen(MappingId::Latlong, false));
+    run(
+        &mut ui,
+        Action::SetPaneOpen(Pane::Map(MappingId::Latlong), false),
+    );
     assert_eq!(ui.state().explorer().state().maximised, None);
     ui.get_by_label("The viewport");
 }

@@ -39,7 +39,7 @@ fn quick() -> LossState {
 }
 
 fn shown(ui: &Ui) -> &Shown {
-    ui.state().explorer().loss().shown().unwrap()
+    ui.state().explorer().labs().loss.shown().unwrap()
 }
 
 fn jobs(ui: &Ui) -> Vec<String> {
@@ -236,10 +236,13 @@ fn a_hidden_laboratory_computes_nothing() {
     assert!(window_kit::rests(&mut ui));
     // Of surroundings that are gone, a hidden laboratory keeps nothing.
     run(&mut ui, Action::SetLoss(slow));
-    assert!(ui.state().explorer().loss().shown().is_some(), "control");
+    assert!(
+        ui.state().explorer().labs().loss.shown().is_some(),
+        "control"
+    );
     let other = Environment::DirectionColor;
     run(&mut ui, Command::LoadEnvironment(other));
-    assert!(ui.state().explorer().loss().shown().is_none());
+    assert!(ui.state().explorer().labs().loss.shown().is_none());
 }
 
 #[test]

@@ -96,7 +96,7 @@ fn the_panes_open_from_the_menu_and_close_again() {
         assert!(state(&ui).is_open(pane));
         ui.get_by_label_contains(content);
     }
-    run(&mut ui, Action::SetCurvesOpen(false));
+    run(&mut ui, Action::SetPaneOpen(Pane::Curves, false));
     assert!(ui.query_by_label_contains("Brewster's angle").is_none());
     assert_eq!(ui.state().explorer().messages(), []);
 }

@@ -42,8 +42,8 @@ pub enum Action {
     SetCompareMaterial(Option<Box<Material>>),
     /// Show a figure of the seed articles.
     ShowFigure(Figure),
-    /// Show or hide the reflectance curves.
-    SetCurvesOpen(bool),
+    /// Show or hide a pane; the viewport always is shown.
+    SetPaneOpen(Pane, bool),
     /// Other curves.
     SetCurves(CurvesState),
     /// Show or hide the ray story, or go to one of its steps.
@@ -85,8 +85,6 @@ pub enum Action {
     },
     /// Let the probe follow the pointer, or keep it.
     FollowPointer(bool),
-    /// Show or hide a panel.
-    SetPanelOpen(MappingId, bool),
     /// Zoom and pan of a panel.
     SetPanelView(PanelState),
     /// What the inspector shows.
@@ -171,22 +169,15 @@ pub fn apply(state: &mut AppState, action: Action) {
             figure.show(state);
             draw_formula(state);
         }
-        Action::SetCurvesOpen(open) => {
-            state.curves_open = open;
-            state.show_alone(state.maximised);
-        }
+        Action::SetPaneOpen(pane, open) => set_open(state, pane, open),
         Action::SetCurves(curves) => state.curves = curves,
         Action::SetStory(story) => {
-            // The story's ray stays while the pointer goes to its buttons; Esc lets it follow again.
-            if story.open && !state.story.open {
-                state.probe_follows = false;
-            }
+            set_open(state, Pane::Story, story.open);
             state.story = story;
-            state.show_alone(state.maximised);
         }
         Action::SetLoss(loss) => {
+            set_open(state, Pane::Loss, loss.open);
             state.loss = loss.sanitized();
-            state.show_alone(state.maximised);
         }
         Action::Orbit { dx_rad, dy_rad } => state.camera.orbit(dx_rad, dy_rad),
         Action::Zoom(factor) => state.camera.zoom(factor),
@@ -218,12 +209,6 @@ pub fn apply(state: &mut AppState, action: Action) {
             }
         }
         Action::FollowPointer(follow) => state.probe_follows = follow,
-        Action::SetPanelOpen(mapping, open) => {
-            if let Some(panel) = state.panel_mut(mapping) {
-                panel.open = open;
-            }
-            state.show_alone(state.maximised);
-        }
         Action::SetPanelView(view) => {
             if let Some(panel) = state.panel_mut(view.mapping) {
                 *panel = view;
@@ -234,6 +219,18 @@ pub fn apply(state: &mut AppState, action: Action) {
         Action::SetMaximised(pane) => state.show_alone(pane),
         Action::Load(loaded) => *state = loaded.sanitized(),
     }
+}
+
+fn set_open(state: &mut AppState, pane: Pane, open: bool) {
+    // The story's ray stays while the pointer goes to its buttons; Esc lets it follow again.
+    if pane == Pane::Story && open && !state.story.open {
+        state.probe_follows = false;
+    }
+    if let Some(is_open) = state.open_mut(pane) {
+        *is_open = open;
+    }
+    // What was shown alone may be hidden now.
+    state.show_alone(state.maximised);
 }
 
 /// The curve of the material's formula is among those that are drawn.

@@ -24,12 +24,15 @@ pub enum Pane {
 }
 
 impl Pane {
+    /// The panes that are read more than looked at: the window's menu lists them, and they need height.
+    pub const READ: [Self; 3] = [Self::Curves, Self::Story, Self::Loss];
+
     /// Its title.
     pub fn name(self) -> &'static str {
         match self {
             Self::Viewport => "Viewport",
             Self::Map(mapping) => mapping.info().name,
-            Self::Curves => "Reflectance",
+            Self::Curves => "Reflectance curves",
             Self::Story => "Ray story",
             Self::Loss => "Loss laboratory",
         }

@@ -3,6 +3,7 @@
 use egui::{ProgressBar, RichText, Ui};
 
 use super::action::Action;
+use super::arrangement::Pane;
 use super::command::Command;
 use super::dialogs::{Dialog, PictureDialog, SaveDialog};
 use super::figures::Figure;
@@ -65,17 +66,11 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
             if ui.checkbox(&mut inspector.open, "Inspector").changed() {
                 model.push(Action::SetInspector(inspector));
             }
-            let mut curves = model.state.curves_open;
-            if ui.checkbox(&mut curves, "Reflectance curves").changed() {
-                model.push(Action::SetCurvesOpen(curves));
-            }
-            let mut story = model.state.story;
-            if ui.checkbox(&mut story.open, "Ray story").changed() {
-                model.push(Action::SetStory(story));
-            }
-            let mut loss = model.state.loss;
-            if ui.checkbox(&mut loss.open, "Loss laboratory").changed() {
-                model.push(Action::SetLoss(loss));
+            for pane in Pane::READ {
+                let mut open = model.state.is_open(pane);
+                if ui.checkbox(&mut open, pane.name()).changed() {
+                    model.push(Action::SetPaneOpen(pane, open));
+                }
             }
             if ui.button("Reset the view   R").clicked() {
                 model.push(Action::ResetCamera);

@@ -3,6 +3,7 @@
 use egui::{ComboBox, RichText, Slider, Ui};
 
 use super::action::Action;
+use super::arrangement::Pane;
 use super::command::Command;
 use super::dialogs::Dialog;
 use super::material_panel::material_ui;
@@ -201,9 +202,10 @@ fn overlays_ui(ui: &mut Ui, model: &mut Model<'_>) {
 
 fn panels_ui(ui: &mut Ui, model: &mut Model<'_>) {
     for &mapping in MappingId::ALL {
-        let mut open = model.state.panel(mapping).open;
-        if ui.checkbox(&mut open, mapping.info().name).changed() {
-            model.push(Action::SetPanelOpen(mapping, open));
+        let pane = Pane::Map(mapping);
+        let mut open = model.state.is_open(pane);
+        if ui.checkbox(&mut open, pane.name()).changed() {
+            model.push(Action::SetPaneOpen(pane, open));
         }
     }
     if ui.button("Arrange as at first").clicked() {

@@ -16,7 +16,7 @@ use super::files::Opened;
 use super::frame::frame_of;
 use super::history::History;
 use super::job::Job;
-use super::loss::LossLab;
+use super::labs::Labs;
 use super::model::{Message, Model, Surroundings};
 use super::object::{Jobs, ObjectData};
 use super::pace::Paces;
@@ -47,8 +47,9 @@ pub struct Explorer {
     views: Views,
     tree: egui_tiles::Tree<Pane>,
     object: ObjectData,
-    loss: LossLab,
-    sees_loss: bool,
+    labs: Labs,
+    /// The panes that were drawn last.
+    seen: Vec<Pane>,
     surroundings: Option<Surroundings>,
     loading: Option<Job<Result<Loading, Refusal>>>,
     opening: Option<Job<Result<Opened, String>>>,
@@ -86,8 +87,8 @@ impl Explorer {
             tree: panes::tree_of(&state),
             object: ObjectData::new(&state),
             history: History::default(),
-            loss: LossLab::default(),
-            sees_loss: false,
+            labs: Labs::default(),
+            seen: Vec::new(),
             surroundings: None,
             loading: None,
             opening: None,
@@ -137,9 +138,9 @@ impl Explorer {
         &self.messages
     }
 
-    /// What the loss laboratory has measured.
-    pub fn loss(&self) -> &LossLab {
-        &self.loss
+    /// What the laboratories have measured.
+    pub fn labs(&self) -> &Labs {
+        &self.labs
     }
 
     /// What the renderer did last.
@@ -156,7 +157,7 @@ impl Explorer {
     pub fn is_busy(&self) -> bool {
         self.pending
             || self.object.is_busy()
-            || self.loss.is_busy()
+            || self.labs.is_busy()
             || self.paces.is_busy()
             || self.loading.is_some()
             || self.opening.is_some()
@@ -264,8 +265,8 @@ impl Explorer {
             target: self.object.target(),
             surroundings: self.surroundings.as_ref(),
             story: story::steps_if_open(&self.state, self.object.target()),
-            loss: &self.loss,
-            sees_loss: false,
+            labs: &self.labs,
+            seen: Vec::new(),
             texel_color: self.probed,
             plan: &self.plan,
             frames: self.frames,
@@ -280,8 +281,8 @@ impl Explorer {
             laid_out: Vec::new(),
         };
         show(&mut model);
-        let (commands, laid_out, sees_loss) = (model.commands, model.laid_out, model.sees_loss);
-        self.sees_loss = sees_loss;
+        let (commands, laid_out, seen) = (model.commands, model.laid_out, model.seen);
+        self.seen = seen;
         (commands, laid_out)
     }
 
@@ -377,7 +378,7 @@ impl Explorer {
             Command::MakePicture(request) => self.make_picture(ctx, request),
             Command::Export(export) => self.export(ctx, *export),
             Command::Cancel(id) => self.cancel(id),
-            Command::MeasureLoss => self.loss.try_again(),
+            Command::MeasureLoss => self.labs.loss.try_again(),
             Command::Dismiss(index) => {
                 if index < self.messages.len() {
                     self.messages.remove(index);

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 
 use super::job::{Job, Outcome};
+use super::labs::Lab;
 use super::model::JobLine;
 use super::object::{Jobs, job_line};
 use super::state::{AppState, LossState, MOST_MAGNIFIED};
@@ -245,20 +246,6 @@ impl LossLab {
         Some((shown.wanted.clone(), Arc::clone(&shown.measured)))
     }
 
-    /// Takes in what the job has brought.
-    pub fn poll(&mut self, ctx: &Context) {
-        if let Some((wanted, job)) = self.job.take() {
-            match job.poll() {
-                Outcome::Running => self.job = Some((wanted, job)),
-                Outcome::Done(made) => self.take_in(wanted, made, ctx),
-                Outcome::Failed => {
-                    let why = "measuring ended without a result: there may be too little memory";
-                    self.given_up = Some((wanted, why.to_owned()));
-                }
-            }
-        }
-    }
-
     fn take_in(&mut self, wanted: Wanted, made: Result<Made, String>, ctx: &Context) {
         let most = ctx.input(|i| i.max_texture_side);
         match made {
@@ -304,21 +291,34 @@ impl LossLab {
         self.job.is_some()
     }
 
-    /// The job under way.
-    pub fn job(&self) -> Option<JobLine> {
-        self.job.as_ref().map(|(_, job)| job_line(job))
-    }
-
-    /// Stops the job of that number.
-    pub fn cancel(&mut self, id: u64) {
-        if let Some((wanted, _)) = self.job.take_if(|(_, job)| job.id == id) {
-            self.given_up = Some((wanted, "measuring was cancelled".to_owned()));
-        }
-    }
-
     /// What was given up is measured after all.
     pub fn try_again(&mut self) {
         self.given_up = None;
+    }
+}
+
+impl Lab for LossLab {
+    fn poll(&mut self, ctx: &Context) {
+        if let Some((wanted, job)) = self.job.take() {
+            match job.poll() {
+                Outcome::Running => self.job = Some((wanted, job)),
+                Outcome::Done(made) => self.take_in(wanted, made, ctx),
+                Outcome::Failed => {
+                    let why = "measuring ended without a result: there may be too little memory";
+                    self.given_up = Some((wanted, why.to_owned()));
+                }
+            }
+        }
+    }
+
+    fn jobs(&self) -> Vec<JobLine> {
+        self.job.iter().map(|(_, job)| job_line(job)).collect()
+    }
+
+    fn cancel(&mut self, id: u64) {
+        if let Some((wanted, _)) = self.job.take_if(|(_, job)| job.id == id) {
+            self.given_up = Some((wanted, "measuring was cancelled".to_owned()));
+        }
     }
 }
 

@@ -30,7 +30,6 @@ const WORST: Color32 = theme::VECTORS[0];
 
 /// Shows the laboratory in all the space there is.
 pub fn loss_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    model.sees_loss = true;
     theme::pane_frame(ui).show(ui, |ui| {
         let size = ui.available_size();
         let scroll = egui::ScrollArea::both().auto_shrink([false, false]);
@@ -59,7 +58,7 @@ pub fn loss_ui(ui: &mut Ui, model: &mut Model<'_>) {
 fn text_ui(ui: &mut Ui, model: &mut Model<'_>) {
     choices_ui(ui, model);
     ui.separator();
-    let lab = model.loss;
+    let lab = &model.labs.loss;
     if let Some(shown) = lab.shown() {
         numbers_ui(ui, model, shown);
     }
@@ -238,7 +237,7 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, size: egui::Vec2) {
     }
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Residual"));
-    let lab = model.loss;
+    let lab = &model.labs.loss;
     let Some(shown) = lab.shown() else {
         return;
     };

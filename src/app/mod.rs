@@ -21,6 +21,7 @@ pub mod history;
 mod inspector;
 mod job;
 mod keys;
+pub mod labs;
 pub mod loss;
 mod loss_panel;
 mod map_panel;

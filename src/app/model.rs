@@ -7,9 +7,10 @@ use crate::imaging::{BadTexels, Environment, Loaded};
 use crate::mapping::MappingId;
 use crate::scene::Target;
 
+use super::arrangement::Pane;
 use super::command::Command;
 use super::history::History;
-use super::loss::LossLab;
+use super::labs::Labs;
 use super::pace::Paces;
 use super::reading::Reading;
 use super::state::{AppState, Overlays};
@@ -69,10 +70,10 @@ pub struct Model<'a> {
     pub surroundings: Option<&'a Surroundings>,
     /// The steps of the ray story; empty while its pane is closed, and where there is nothing to tell.
     pub story: Vec<StoryStep>,
-    /// What a conversion loses, as far as it has been measured.
-    pub loss: &'a LossLab,
-    /// The loss laboratory is seen: only then anything is measured.
-    pub sees_loss: bool,
+    /// What the laboratories have measured.
+    pub labs: &'a Labs,
+    /// The panes that are drawn: what only a hidden one would show is not computed.
+    pub seen: Vec<Pane>,
     /// Linear colour of the probed texel in the selected map, when it has been read back.
     pub texel_color: Option<[f32; 3]>,
     /// The frame plan's account of the last drawing.

@@ -7,11 +7,8 @@ use egui_tiles::{
 use super::action::Action;
 use super::arrangement::{Arrangement, Pane};
 use super::model::Model;
-use super::state::{AppState, LossState, StoryState};
+use super::state::AppState;
 use super::{curves, loss_panel, map_panel, story, viewport};
-
-/// The panes that need height to be read.
-const READ: [Pane; 3] = [Pane::Curves, Pane::Story, Pane::Loss];
 
 /// The first arrangement: the viewport above a grid of the open panels.
 pub fn first_tree(state: &AppState) -> Tree<Pane> {
@@ -51,7 +48,7 @@ pub fn follow(tree: &mut Tree<Pane>, state: &AppState) {
         *tree = first_tree(state);
     }
     let maps = state.panels.iter().map(|panel| Pane::Map(panel.mapping));
-    for pane in maps.chain(READ) {
+    for pane in maps.chain(Pane::READ) {
         match (state.is_open(pane), find(tree, pane)) {
             (true, None) => insert(tree, pane),
             (false, Some(id)) => {
@@ -71,7 +68,7 @@ fn insert(tree: &mut Tree<Pane>, pane: Pane) {
     if !matches!(pane, Pane::Map(_))
         && let Some(there) = Arrangement::of_tree(tree)
     {
-        let other = READ.into_iter().find(|other| there.holds(*other));
+        let other = Pane::READ.into_iter().find(|other| there.holds(*other));
         let changed = match other {
             Some(other) => there.with_below(other, pane),
             None => there.with_column(pane),
@@ -111,6 +108,7 @@ pub fn panes_ui(ui: &mut egui::Ui, model: &mut Model<'_>, tree: &mut Tree<Pane>)
 }
 
 fn pane_ui(ui: &mut egui::Ui, model: &mut Model<'_>, pane: Pane) {
+    model.seen.push(pane);
     match pane {
         Pane::Viewport => viewport::viewport_ui(ui, model),
         Pane::Map(mapping) => map_panel::map_panel_ui(ui, model, mapping),
@@ -139,26 +137,8 @@ impl Behavior<Pane> for PaneBehavior<'_, '_> {
     }
 
     fn on_tab_close(&mut self, tiles: &mut Tiles<Pane>, tile: TileId) -> bool {
-        match tiles.get(tile) {
-            Some(Tile::Pane(Pane::Map(mapping))) => {
-                self.model.push(Action::SetPanelOpen(*mapping, false));
-            }
-            Some(Tile::Pane(Pane::Curves)) => self.model.push(Action::SetCurvesOpen(false)),
-            Some(Tile::Pane(Pane::Story)) => {
-                let story = self.model.state.story;
-                self.model.push(Action::SetStory(StoryState {
-                    open: false,
-                    ..story
-                }));
-            }
-            Some(Tile::Pane(Pane::Loss)) => {
-                let loss = self.model.state.loss;
-                self.model.push(Action::SetLoss(LossState {
-                    open: false,
-                    ..loss
-                }));
-            }
-            _ => {}
+        if let Some(Tile::Pane(pane)) = tiles.get(tile) {
+            self.model.push(Action::SetPaneOpen(*pane, false));
         }
         false // the tile goes when the state says so
     }

@@ -1,4 +1,8 @@
-//! What the window shows, as plain data: saved scenes, undo and exports are copies of it.
+//! What the window shows, as plain data: saved scenes, undo and exports are copies of it. What one pane shows is beside it.
+
+mod loss;
+mod optics;
+mod views;
 
 use std::path::PathBuf;
 use std::sync::LazyLock;
@@ -7,16 +11,19 @@ use serde::{Deserialize, Serialize};
 
 use crate::gpu::ToneCurve;
 use crate::imaging::Environment;
-use crate::imaging::resample::Filter;
 use crate::mapping::MappingId;
 use crate::math::{Rotation, Vec3};
-use crate::optics::{Formula, Material};
+use crate::optics::Material;
 use crate::scene::object::FULL_DENSITY;
 use crate::scene::{Camera, Object, Ray};
 
 use super::arrangement::{Arrangement, Pane};
 use super::objects::target_of;
 use super::viewport::looked_up;
+
+pub use loss::{LOSS_ROWS, LossState, MOST_MAGNIFIED};
+pub use optics::{CurvesState, StoryKind, StoryState};
+pub use views::{InspectorState, Overlays, PanelState, Precision, ZOOM_RANGE};
 
 /// Version of the saved form. A scene of a later version is refused; earlier ones are migrated by [`AppState::from_json`].
 pub const SCHEMA: u32 = 4;
@@ -116,227 +123,12 @@ impl From<Ray> for EyeRay {
     }
 }
 
-/// What is drawn over the pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Overlays {
-    /// The six great circles A to F.
-    pub great_circles: bool,
-    /// A tint for each face of the continuous cube map.
-    pub face_tint: bool,
-    /// Lines of equal u and v.
-    pub grid: bool,
-    /// Incident, normal and reflected vector.
-    pub vectors: bool,
-    /// The axes of the world.
-    pub axes: bool,
-    /// The probe's mark, the outline of its face and its texel.
-    pub probe: bool,
-    /// Names of charts and of compared mappings.
-    pub names: bool,
-    /// Rings over the viewport that turn the environment.
-    pub rings: bool,
-}
-
-impl Default for Overlays {
-    fn default() -> Self {
-        Self {
-            great_circles: false,
-            face_tint: false,
-            grid: false,
-            vectors: true,
-            axes: true,
-            probe: true,
-            names: true,
-            rings: false,
-        }
-    }
-}
-
-impl Overlays {
-    /// Nothing over the pictures.
-    pub const NONE: Self = Self {
-        great_circles: false,
-        face_tint: false,
-        grid: false,
-        vectors: false,
-        axes: false,
-        probe: false,
-        names: false,
-        rings: false,
-    };
-}
-
-/// The panel of one mapping.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PanelState {
-    /// The mapping it unfolds.
-    pub mapping: MappingId,
-    /// Shown at all.
-    pub open: bool,
-    /// Magnification; 1 fits the whole picture into the panel.
-    pub zoom: f32,
-    /// Picture coordinates of the panel's middle.
-    pub center: [f32; 2],
-}
-
-/// What the pane with the reflectance curves shows, beside the exact one.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct CurvesState {
-    /// The formulas whose curves are drawn.
-    pub shown: Vec<Formula>,
-    /// For light that comes from inside the body: eta becomes 1/eta.
-    pub from_inside: bool,
-}
-
-impl Default for CurvesState {
-    fn default() -> Self {
-        Self {
-            shown: vec![Formula::Schlick],
-            from_inside: false,
-        }
-    }
-}
-
-/// What the ray story tells, and how far it is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct StoryState {
-    /// The pane is shown.
-    pub open: bool,
-    /// Which story.
-    pub kind: StoryKind,
-    /// The step, from 0; beyond the last one it is the last one.
-    pub step: usize,
-}
-
-/// A story of one ray.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum StoryKind {
-    /// From the eye to the lookups.
-    #[default]
-    Ray,
-    /// Hoff's derivation of the sphere map, line by line.
-    SphereMap,
-}
-
-/// What the loss laboratory measures: a map of the environment goes to another mapping and comes back.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct LossState {
-    /// The pane is shown.
-    pub open: bool,
-    /// The mapping of the map that goes and comes back.
-    pub from: MappingId,
-    /// Rows of each of its charts, in [`LOSS_ROWS`].
-    pub from_rows: u32,
-    /// The mapping that it goes through.
-    pub via: MappingId,
-    /// Rows of each chart there.
-    pub via_rows: u32,
-    /// The filter of both ways; `None`: the one that suits each way, as [`crate::imaging::resample::Conversion::filter`].
-    pub filter: Option<Filter>,
-    /// By what the differences are multiplied to be seen, a power of two up to [`MOST_MAGNIFIED`]; `None`: by what suits
-    /// them.
-    pub magnification: Option<u32>,
-}
-
-/// Rows of a chart in the loss laboratory. At the most, six faces are compared in a second or two, and the picture of
-/// their cross has a quarter of the side that every picture here may have.
-pub const LOSS_ROWS: (u32, u32) = (1, 1024);
-/// The largest magnification of differences: at it the last bit of a float near 1 is seen.
-pub const MOST_MAGNIFIED: u32 = 1 << 20;
-
-impl Default for LossState {
-    /// A latlong through a cube map with as many texels around the horizon.
-    fn default() -> Self {
-        Self {
-            open: false,
-            from: MappingId::Latlong,
-            from_rows: 256,
-            via: MappingId::Cube,
-            via_rows: 128,
-            filter: None,
-            magnification: None,
-        }
-    }
-}
-
-impl LossState {
-    /// The nearest that makes sense.
-    #[must_use]
-    pub fn sanitized(mut self) -> Self {
-        for rows in [&mut self.from_rows, &mut self.via_rows] {
-            *rows = (*rows).clamp(LOSS_ROWS.0, LOSS_ROWS.1);
-        }
-        let power = |factor: u32| 1 << factor.clamp(1, MOST_MAGNIFIED).ilog2();
-        self.magnification = self.magnification.map(power);
-        self
-    }
-}
-
-/// Smallest and largest magnification of a panel: at the largest, a texel of the finest map fills the panel.
-pub const ZOOM_RANGE: (f32, f32) = (0.5, 4096.0);
 /// Stops of exposure that the slider offers: the range of an HDR photograph.
 pub const EXPOSURE_RANGE: (f32, f32) = (-12.0, 12.0);
 /// Texels of a map: from a cube of 16 x 16 faces to one of 2048 x 2048.
 pub const TEXEL_BUDGET_RANGE: (u32, u32) = (6 * 16 * 16, 6 * 2048 * 2048);
 /// Fineness of the object's triangles: from a coarse body to the smooth one.
 pub const DENSITY_RANGE: (u32, u32) = (1, FULL_DENSITY);
-
-impl PanelState {
-    /// A panel that shows the whole picture.
-    pub fn new(mapping: MappingId, open: bool) -> Self {
-        Self {
-            mapping,
-            open,
-            zoom: 1.0,
-            center: [0.5, 0.5],
-        }
-    }
-}
-
-/// What the inspector shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct InspectorState {
-    /// Shown at all.
-    pub open: bool,
-    /// The mapping whose steps are shown.
-    pub mapping: MappingId,
-    /// Numbers of which type.
-    pub precision: Precision,
-    /// The seed's own numbers beside the app's.
-    pub conventions: bool,
-    /// The equation as printed beside the right one.
-    pub errata: bool,
-}
-
-impl Default for InspectorState {
-    fn default() -> Self {
-        Self {
-            open: true,
-            mapping: MappingId::Ccm,
-            precision: Precision::F32,
-            conventions: false,
-            errata: false,
-        }
-    }
-}
-
-/// The number type of the steps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Precision {
-    /// Single precision, as on the GPU.
-    F32,
-    /// Double precision, the reference.
-    F64,
-    /// Both beside one another.
-    Both,
-}
 
 /// The first probe and its ray: the teapot's flank, looked at from a little to the side of the first camera, so that all
 /// three vectors are seen.
@@ -509,6 +301,17 @@ impl AppState {
             Pane::Story => self.story.open,
             Pane::Loss => self.loss.open,
             Pane::Map(mapping) => self.panel(mapping).open,
+        }
+    }
+
+    /// Whether a pane is shown, to be changed; `None` for the viewport, which always is.
+    pub(super) fn open_mut(&mut self, pane: Pane) -> Option<&mut bool> {
+        match pane {
+            Pane::Viewport => None,
+            Pane::Curves => Some(&mut self.curves_open),
+            Pane::Story => Some(&mut self.story.open),
+            Pane::Loss => Some(&mut self.loss.open),
+            Pane::Map(mapping) => Some(&mut self.panel_mut(mapping)?.open),
         }
     }
 

@@ -7,6 +7,7 @@ use egui::Context;
 
 use super::Explorer;
 use crate::app::action::Action;
+use crate::app::arrangement::Pane;
 use crate::app::dialogs::{Dialog, ball_from};
 use crate::app::export::Export;
 use crate::app::files::{self, Opened};
@@ -73,7 +74,7 @@ impl Explorer {
             .chain(reading)
             .chain(self.errands.iter().map(job_line))
             .chain(self.object.jobs())
-            .chain(self.loss.job())
+            .chain(self.labs.jobs())
             .collect()
     }
 
@@ -230,7 +231,7 @@ impl Explorer {
             self.keep_shown();
         }
         self.object.cancel(id);
-        self.loss.cancel(id);
+        self.labs.cancel(id);
         self.opening.take_if(|job| job.id == id);
         let is_reading = |reading: &Reading| reading.job().is_some_and(|job| job.id == id);
         if self.reading.as_ref().is_some_and(is_reading) {
@@ -244,7 +245,7 @@ impl Explorer {
         self.poll_opening(ctx);
         self.poll_errands(ctx);
         self.poll_asked(ctx);
-        self.loss.poll(ctx);
+        self.labs.poll(ctx);
         self.paces.poll();
         self.follow_reading(ctx);
         for news in self.object.poll() {
@@ -270,20 +271,21 @@ impl Explorer {
 
     /// Measures the loss that is asked for while its pane is seen, and nothing while it is hidden.
     pub(super) fn measure_loss(&mut self, ctx: &Context) {
-        let seen = self.surroundings.as_ref().filter(|_| self.sees_loss);
+        let seen = self.surroundings.as_ref();
+        let seen = seen.filter(|_| self.seen.contains(&Pane::Loss));
         let wanted = seen.map(|shown| Wanted::new(&self.state, &shown.loaded));
         if let (None, Some(shown)) = (&wanted, &self.surroundings) {
-            self.loss.forget_others(&shown.loaded);
+            self.labs.loss.forget_others(&shown.loaded);
         }
         if self.complete {
-            self.loss.complete(wanted, ctx);
+            self.labs.loss.complete(wanted, ctx);
             return;
         }
         let mut jobs = Jobs {
             last_id: &mut self.next_job,
             ctx,
         };
-        if let Err(why) = self.loss.follow(wanted, &mut jobs) {
+        if let Err(why) = self.labs.loss.follow(wanted, &mut jobs) {
             self.fail(why);
         }
     }

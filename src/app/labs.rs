@@ -1,0 +1,53 @@
+//! The laboratories: each measures in jobs of its own and keeps what it has measured.
+
+use egui::Context;
+
+use super::loss::LossLab;
+use super::model::JobLine;
+
+/// What the window asks of every laboratory, whatever it measures.
+pub trait Lab {
+    /// Takes in what its jobs have brought.
+    fn poll(&mut self, ctx: &Context);
+    /// Its jobs under way.
+    fn jobs(&self) -> Vec<JobLine>;
+    /// Stops the job of that number, if it is its own.
+    fn cancel(&mut self, id: u64);
+}
+
+/// All of them.
+#[derive(Default)]
+pub struct Labs {
+    /// What a conversion loses.
+    pub loss: LossLab,
+}
+
+impl Labs {
+    fn all(&self) -> [&dyn Lab; 1] {
+        [&self.loss]
+    }
+
+    fn all_mut(&mut self) -> [&mut dyn Lab; 1] {
+        [&mut self.loss]
+    }
+
+    /// Takes in what the jobs have brought.
+    pub fn poll(&mut self, ctx: &Context) {
+        self.all_mut().into_iter().for_each(|lab| lab.poll(ctx));
+    }
+
+    /// The jobs under way.
+    pub fn jobs(&self) -> Vec<JobLine> {
+        self.all().into_iter().flat_map(Lab::jobs).collect()
+    }
+
+    /// True while a job runs.
+    pub fn is_busy(&self) -> bool {
+        self.all().into_iter().any(|lab| !lab.jobs().is_empty())
+    }
+
+    /// Stops the job of that number.
+    pub fn cancel(&mut self, id: u64) {
+        self.all_mut().into_iter().for_each(|lab| lab.cancel(id));
+    }
+}
