@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use crate::imaging::atomic::check_name;
 use crate::imaging::load::{EnvmapKind, Format};
-use crate::imaging::resample::{Conversion, Filter, chart_size, equal_rows, levels, resample};
+use crate::imaging::opacity::OpacityWay;
+use crate::imaging::resample::{Conversion, Filter, Plan, chart_size, equal_rows, levels};
 use crate::imaging::save::{Content, SaveError, SaveOptions, encode, save};
 use crate::imaging::{
     Channels, Container, Environment, EnvironmentMap, Image, MapShape, OpenHints, Progress,
@@ -343,9 +344,9 @@ impl Export {
         }
         let rows = equal_rows(MappingId::Latlong, self.mapping, self.size());
         let source = environment.map(rows, progress);
-        let (source, _) = source.map_err(|error| error.to_string())?;
+        let (source, from, _) = source.map_err(|error| error.to_string())?;
         let options = self.save_options();
-        self.make(source, progress, |index, content| {
+        self.make(source, from, progress, |index, content| {
             let path = &self.paths()[index];
             save(path, self.force, content, self.format, &options, progress)
         })
@@ -360,17 +361,23 @@ impl Export {
         }
     }
 
-    /// Converts `source` and gives what each file holds to `put`, with the file's index in [`Export::paths`].
+    /// Converts `source`, from a file of the format `from`, and gives what each file holds to `put`, with the file's index in [`Export::paths`].
     fn make(
         &self,
         source: EnvironmentMap,
+        from: Format,
         progress: &Progress,
         mut put: impl FnMut(usize, Content<'_>) -> Result<(), SaveError>,
     ) -> Result<(), String> {
         let said = |error: &dyn std::fmt::Display| error.to_string();
         let conversion = self.conversion(source.shape())?;
-        let (map, _) = resample(&source, &conversion, progress).map_err(|e| said(&e))?;
+        let plan = Plan::new(source.shape(), &conversion).map_err(|e| said(&e))?;
+        let from = (from, source.shape());
+        let way = OpacityWay::new(from, self.format, &conversion, &plan);
+        let converted = plan.run(&way.straight(&source), progress);
+        let (mut map, _) = converted.map_err(|e| said(&e))?;
         drop(source);
+        way.finish(&mut map);
         if self.format.is_container() {
             let maps = if self.has_levels {
                 levels(map, &conversion, progress).map_err(|e| said(&e))?
@@ -407,7 +414,7 @@ impl Export {
         for _ in 0..RUNS {
             let source = EnvironmentMap::of_latlong(&thin).map_err(|error| error.to_string())?;
             let start = Instant::now();
-            small.make(source, progress, |_, content| {
+            small.make(source, Format::Exr, progress, |_, content| {
                 encode(content, small.format, &options, progress).map(drop)
             })?;
             least = least.min(start.elapsed().as_secs_f64());

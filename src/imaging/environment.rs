@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::computed::{self, Pattern};
 use super::file::short_name;
-use super::load::{self, LoadError, LoadProblem, Loaded};
+use super::load::{self, Format, LoadError, LoadProblem, Loaded};
 use super::{EnvironmentMap, MapFile, OpenHints, Pictures, Progress, Stored, open_map};
 
 /// The colours of the six faces +x -x +y -y +z -z as sRGB: three hues of the palette that Okabe and Ito chose for every kind
@@ -99,7 +99,7 @@ impl Environment {
             })
     }
 
-    /// The map as conversions take it, and how its file stores a sample. A file's has its own mapping and keeps every bit; a
+    /// The map as conversions take it, its file's format, and how that stores a sample. A file's has its own mapping and keeps every bit; a
     /// built-in one is a latlong of floats, a computed one with at least `rows` rows.
     ///
     /// # Errors
@@ -108,10 +108,10 @@ impl Environment {
         &self,
         rows: u32,
         progress: &Progress,
-    ) -> Result<(EnvironmentMap, Stored), LoadError> {
+    ) -> Result<(EnvironmentMap, Format, Stored), LoadError> {
         if let Self::File(MapFile { path, hints }) = self {
             let opened = open_map(std::slice::from_ref(path), hints, progress)?;
-            return Ok((opened.map, opened.stored));
+            return Ok((opened.map, opened.format, opened.stored));
         }
         // Small ones are computed larger than needed: their lines are drawn for the usual size.
         let rows = rows.clamp(computed::DEFAULT_HEIGHT, load::MOST_HEIGHT);
@@ -121,7 +121,7 @@ impl Environment {
             name: self.id(),
         })?;
         // Photographs are stored so, and no pattern needs more.
-        Ok((map, Stored::Half))
+        Ok((map, Format::Exr, Stored::Half))
     }
 
     /// The latlong picture, computed ones at [`computed::DEFAULT_HEIGHT`].

@@ -37,6 +37,7 @@ mod file;
 mod hints;
 mod image;
 pub mod load;
+pub mod opacity;
 pub mod open;
 mod pictures;
 pub mod png_out;

@@ -92,7 +92,7 @@ fn single(
         0,
     );
     files_out.check(&files.paths)?;
-    let result = converter.convert(&source.map, None, progress)?;
+    let result = converter.convert_file(&source, files_out.format, None, progress)?;
     let from = source.map.shape().mapping;
     let shape = result.shape().clone();
     let bytes = source.map.bytes() + result.bytes();
@@ -162,7 +162,8 @@ fn film(
             *number,
         );
         files_out.check(&files.paths)?;
-        let map = converter.convert(&source.map, old.and_then(|old| old.map), progress)?;
+        let old = old.and_then(|old| old.map);
+        let map = converter.convert_file(source, files_out.format, old, progress)?;
         if last.is_none() {
             tell(&source.notes);
         }

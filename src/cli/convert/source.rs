@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use super::error::ConvertError;
 use super::names::Name;
 use crate::imaging::detect::Proposal;
+use crate::imaging::load::Format;
 use crate::imaging::solver::{LatlongWay, ShaderLanguage, SkyHint, lookup_code, solve};
 use crate::imaging::{Environment, EnvironmentMap, OpenHints, Progress, Stored, open_map};
 
 /// A map, and how its file stored it.
 pub(super) struct Source {
     pub map: EnvironmentMap,
+    pub format: Format,
     pub stored: Stored,
     /// What the user should know, a sentence each.
     pub notes: Vec<String>,
@@ -28,6 +30,7 @@ pub(super) fn open(
     notes.extend(certain.map(|solution| format!("try {}", solution.option())));
     Ok(Source {
         map: opened.map,
+        format: opened.format,
         stored: opened.stored,
         notes,
     })
@@ -39,9 +42,10 @@ pub(super) fn built_in(
     rows: Option<u32>,
     progress: &Progress,
 ) -> Result<Source, ConvertError> {
-    let (map, stored) = environment.map(rows.unwrap_or(0), progress)?;
+    let (map, format, stored) = environment.map(rows.unwrap_or(0), progress)?;
     Ok(Source {
         map,
+        format,
         stored,
         notes: Vec::new(),
     })

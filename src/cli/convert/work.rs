@@ -6,7 +6,10 @@ use std::time::Instant;
 use super::ends::FilesOut;
 use super::error::ConvertError;
 use super::report::Times;
+use super::source::Source;
 use super::task::{Target, Task};
+use crate::imaging::load::Format;
+use crate::imaging::opacity::OpacityWay;
 use crate::imaging::resample::{Conversion, Plan, Report, levels};
 use crate::imaging::save::{Content, SaveOptions, save};
 use crate::imaging::{Container, EnvironmentMap, MapShape, Progress, Stored};
@@ -56,6 +59,22 @@ impl<'a> Converter<'a> {
         }
         let current = self.current.as_ref().ok_or(ConvertError::Broken)?;
         Ok(&current.target)
+    }
+
+    /// Converts the map of a file, as [`Converter::convert`] does, for a file of the format `to`.
+    pub fn convert_file(
+        &mut self,
+        source: &Source,
+        to: Format,
+        old: Option<EnvironmentMap>,
+        progress: &Progress,
+    ) -> Result<EnvironmentMap, ConvertError> {
+        let current = self.current.as_ref().ok_or(ConvertError::Broken)?;
+        let from = (source.format, source.map.shape());
+        let way = OpacityWay::new(from, to, &current.target.conversion, &current.plan);
+        let mut result = self.convert(&way.straight(&source.map), old, progress)?;
+        way.finish(&mut result);
+        Ok(result)
     }
 
     /// Converts a map of the shape that is prepared, into `old` where that has the result's shape.

@@ -105,7 +105,7 @@ pub enum EnvmapKind {
 #[derive(Clone, Debug)]
 pub struct RasterFile {
     /// The texels, every stored bit kept: NaN and infinite values too. OpenEXR's colours are multiplied by their opacity,
-    /// where there is one; they stay so.
+    /// where there is one; they stay so until they are converted ([`crate::imaging::opacity`]).
     pub raster: Raster,
     /// What the file was.
     pub format: Format,
@@ -241,6 +241,9 @@ fn named(name: &str) -> impl FnOnce(LoadProblem) -> LoadError {
 }
 
 fn format_of(bytes: &[u8]) -> Result<Format, LoadProblem> {
+    if bytes.is_empty() {
+        return Err(LoadProblem::Empty);
+    }
     Format::of(bytes).ok_or_else(|| LoadProblem::UnknownFormat {
         start: bytes[..bytes.len().min(8)].to_vec(),
     })

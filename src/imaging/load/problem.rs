@@ -36,6 +36,9 @@ pub enum LoadProblem {
         /// Length of the file.
         bytes: u64,
     },
+    /// No bytes.
+    #[error("the file is empty; fetch or export it again")]
+    Empty,
     /// No known signature.
     #[error(
         "the file starts with {start:02x?}, which no format here does; choose an HDR, EXR, PNG, JPEG, KTX2 or DDS file"
