@@ -43,8 +43,8 @@ pub(super) enum Named {
     One,
     /// Itself, although it is named like a face: so a file of the set would be called that is not there.
     Alone(String),
-    /// Nothing: its `%f` fits no six files.
-    Missing,
+    /// Nothing: its `%f` fits no six files. These of the set that it fits best are not there; none where it fits none.
+    Missing(Vec<String>),
 }
 
 /// The six files of a path with `%f`, or those beside a file that is named like one of six faces.
@@ -57,9 +57,20 @@ pub(super) fn named(path: &Path) -> io::Result<Named> {
     };
     if let Some((before, after)) = name.split_once(PLACE) {
         let folder = Folder::of(path)?;
-        let mut sets = SETS.iter().chain([&LETTERS]);
-        let six = sets.find_map(|set| folder.six(before, set, after).ok());
-        return Ok(six.map_or(Named::Missing, Named::Six));
+        let mut best = Vec::new();
+        for set in SETS.iter().chain([&LETTERS]) {
+            let missing = folder.missing(before, set, after);
+            if missing.is_empty()
+                && let Ok(six) = folder.six(before, set, after)
+            {
+                return Ok(Named::Six(six));
+            }
+            let is_better = best.is_empty() || missing.len() < best.len();
+            if missing.len() < set.len() && is_better {
+                best = missing;
+            }
+        }
+        return Ok(Named::Missing(best));
     }
     let (stem, ending) = name.rfind('.').map_or((name, ""), |dot| name.split_at(dot));
     let mut alone = Named::One;
@@ -116,17 +127,30 @@ impl<'a> Folder<'a> {
     fn six(&self, before: &str, set: &[&str; 6], after: &str) -> Result<[PathBuf; 6], String> {
         let mut six = [const { PathBuf::new() }; 6];
         for (path, face) in six.iter_mut().zip(set) {
-            let is_face = |name: &&String| {
-                let inner = name
-                    .strip_prefix(before)
-                    .and_then(|n| n.strip_suffix(after));
-                inner.is_some_and(|inner| inner.eq_ignore_ascii_case(face))
-            };
-            let found = self.names.iter().find(is_face);
+            let found = self.find(before, face, after);
             let name = found.ok_or_else(|| format!("{before}{face}{after}"))?;
             *path = self.path.join(name);
         }
         Ok(six)
+    }
+
+    /// The names of a set that are not there.
+    fn missing(&self, before: &str, set: &[&str; 6], after: &str) -> Vec<String> {
+        let faces = set.iter();
+        let missing = faces.filter(|face| self.find(before, face, after).is_none());
+        missing
+            .map(|face| format!("{before}{face}{after}"))
+            .collect()
+    }
+
+    /// The file of a face.
+    fn find(&self, before: &str, face: &str, after: &str) -> Option<&String> {
+        self.names.iter().find(|name| {
+            let inner = name
+                .strip_prefix(before)
+                .and_then(|n| n.strip_suffix(after));
+            inner.is_some_and(|inner| inner.eq_ignore_ascii_case(face))
+        })
     }
 }
 
@@ -139,5 +163,19 @@ mod tests {
         assert_eq!(face_name("+x"), "px");
         assert_eq!(face_name("-z"), "nz");
         assert_eq!(face_name("front"), "front");
+    }
+
+    #[test]
+    fn what_is_missing_is_of_the_set_that_fits_best() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sky_%f.png");
+        assert_eq!(named(&path).unwrap(), Named::Missing(Vec::new()));
+        for face in ["px", "nx", "py", "pz", "nz", "right"] {
+            std::fs::write(folder.path().join(format!("sky_{face}.png")), b"").unwrap();
+        }
+        let missing = vec!["sky_ny.png".to_owned()];
+        assert_eq!(named(&path).unwrap(), Named::Missing(missing));
+        std::fs::write(folder.path().join("sky_NY.png"), b"").unwrap();
+        assert!(matches!(named(&path).unwrap(), Named::Six(_)));
     }
 }

@@ -43,12 +43,15 @@ impl OpenHints {
         *self == Self::default()
     }
 
-    /// The same for `sixfold convert`: options, each with its value where it has one. It has none for
-    /// [`OpenHints::transfer`].
+    /// The same for `sixfold convert`: options, each with its value where it has one.
     pub fn options(&self) -> Vec<(&'static str, Option<String>)> {
         let siting = |siting| match siting {
             Siting::Centre => "centre",
             Siting::Edge => "edge",
+        };
+        let transfer = |transfer| match transfer {
+            Transfer::Linear => "linear",
+            Transfer::Srgb => "srgb",
         };
         let said = [
             ("--from", self.mapping.map(|mapping| mapping.to_string())),
@@ -59,6 +62,10 @@ impl OpenHints {
             ("--from-frame", self.frame.map(|frame| frame.id.to_owned())),
             ("--arrange", self.arrange.map(String::from)),
             ("--from-samples", self.siting.map(siting).map(str::to_owned)),
+            (
+                "--from-transfer",
+                self.transfer.map(transfer).map(str::to_owned),
+            ),
         ];
         let said = said.into_iter().filter(|(_, value)| value.is_some());
         let mirrored = self.mirrored.then_some(("--from-mirrored", None));
@@ -158,6 +165,7 @@ mod tests {
             mapping: Some(MappingId::Eac),
             layout: Some(Layout::ThreeByTwoTurned),
             siting: Some(Siting::Edge),
+            transfer: Some(Transfer::Srgb),
             mirrored: true,
             ..OpenHints::default()
         };
@@ -168,7 +176,8 @@ mod tests {
             .collect();
         assert_eq!(
             words.join(" "),
-            "--from eac --from-layout 3x2-turned --from-samples edge --from-mirrored"
+            "--from eac --from-layout 3x2-turned --from-samples edge --from-transfer srgb \
+             --from-mirrored"
         );
         assert!(OpenHints::default().options().is_empty());
     }

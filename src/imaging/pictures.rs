@@ -155,7 +155,16 @@ fn all_paths(
             ));
             Ok(paths.to_vec())
         }
-        Named::Missing => Err(LoadProblem::Unclear(
+        Named::Missing(names) if !names.is_empty() => Err(LoadProblem::Unclear(format!(
+            "of the six files for `%f` {} not there: {}; add what is missing",
+            if names.len() == 1 {
+                "one is"
+            } else {
+                "some are"
+            },
+            names.join(", ")
+        ))),
+        Named::Missing(_) => Err(LoadProblem::Unclear(
             "no six files have usual names of faces for `%f`; name them px nx py ny pz nz"
                 .to_owned(),
         )),

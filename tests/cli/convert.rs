@@ -5,6 +5,10 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use sixfold::imaging::load::{self, Format, Opened};
+use sixfold::imaging::save::{Content, SaveOptions, save};
+use sixfold::imaging::{Channels, Progress, Raster, Samples, Transfer};
+
 use super::{Run, piped, run, sixfold};
 
 /// Runs `sixfold convert` with these words in a folder.
@@ -97,6 +101,94 @@ fn every_option_does_something() {
         );
     }
     assert!(at("linear.png") != at("raw.png"));
+    // Codes taken for light are brighter than what they stand for.
+    for (words, name) in [("", "untold"), ("--from-transfer srgb", "told")] {
+        done(folder.path(), &format!("codes.png {name}.exr {words}"));
+    }
+    done(folder.path(), "codes.png light.exr --from-transfer linear");
+    assert!(at("untold.exr") == at("told.exr"));
+    assert!(at("untold.exr") != at("light.exr"));
+}
+
+#[test]
+fn faces_that_meet_alike_in_many_ways_are_believed() {
+    let folder = tempfile::tempdir().unwrap();
+    for (environment, said) in [
+        ("labelled-faces", "every face may be where its name says"),
+        ("courtyard", "every face is where its name says"),
+    ] {
+        done(
+            folder.path(),
+            &format!("{environment} cross.png --to cube --layout cross --size 64 --force"),
+        );
+        let out = done(folder.path(), "cross.png --inspect");
+        assert!(out.contains(said), "{environment}: {out}");
+    }
+}
+
+/// The one raster of a file.
+fn raster(path: &Path) -> Raster {
+    match load::open(path, &Progress::new()).unwrap() {
+        Opened::Raster(file) => file.raster,
+        Opened::Container(_) => panic!("a container: {}", path.display()),
+    }
+}
+
+#[test]
+fn opacity_neither_darkens_nor_changes_what_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| raster(&folder.path().join(name));
+    let pixels = (0..64 * 32).flat_map(|i| [200, 90, 30, [255, 128, 40][i % 3]]);
+    let codes = Samples::U8(pixels.collect());
+    let half = Raster::new([64, 32], Channels::Rgba, Transfer::Srgb, codes).unwrap();
+    let path = folder.path().join("half.png");
+    let (content, options) = (Content::Raster(&half), SaveOptions::default());
+    save(
+        &path,
+        false,
+        content,
+        Format::Png,
+        &options,
+        &Progress::new(),
+    )
+    .unwrap();
+    // OpenEXR holds the product.
+    done(folder.path(), "half.png half.exr --depth float");
+    let (straight, product) = (half.light(1, 0), at("half.exr").light(1, 0));
+    assert!((product[3] - 128.0 / 255.0).abs() < 1e-6);
+    for (whole, part) in straight.iter().zip(product).take(3) {
+        assert!((whole * product[3] - part).abs() < 1e-6, "{whole} {part}");
+    }
+    // And gives the colours back, on the way to another mapping too.
+    done(folder.path(), "half.exr back.png --depth 8");
+    assert_eq!(at("back.png").samples(), half.samples());
+    done(
+        folder.path(),
+        "half.exr turned.exr --to octahedral --size 16",
+    );
+    for source in ["half.exr", "turned.exr"] {
+        done(
+            folder.path(),
+            &format!(
+                "{source} cube.png --from {} --to cube --size 8 --layout row --depth 8 --force",
+                if source == "half.exr" {
+                    "latlong"
+                } else {
+                    "octahedral"
+                }
+            ),
+        );
+        let cube = at("cube.png");
+        let Samples::U8(codes) = cube.samples() else {
+            panic!("not 8 bits");
+        };
+        for texel in codes.as_chunks::<4>().0 {
+            assert_eq!(texel[..3], [200, 90, 30], "{source}");
+        }
+    }
+    // What is only copied keeps every bit.
+    done(folder.path(), "half.exr copy.exr");
+    assert_eq!(at("copy.exr"), at("half.exr"));
 }
 
 #[test]
@@ -270,6 +362,12 @@ fn what_makes_no_sense_is_refused_with_one_line() {
         ("- - --raw rgb24 4x2 --from latlong --json", "--json"),
         ("labelled-faces a.png --from cube", "built in"),
         ("labelled-faces a.png --from-mirrored", "built in"),
+        ("labelled-faces a.png --from-transfer srgb", "built in"),
+        ("labeled-faces a.png", "courtyard, sunset, labelled-faces"),
+        (
+            "- - --raw rgb24 4x2 --from latlong --from-transfer srgb",
+            "leave --from-transfer out",
+        ),
     ];
     for (words, help) in cases {
         let run = convert(folder.path(), words);
@@ -294,6 +392,22 @@ fn what_fails_leaves_nothing_behind_and_what_is_there_stays() {
     let folder = folder();
     std::fs::write(folder.path().join("old.png"), "old").unwrap();
     std::fs::write(folder.path().join("bad.png"), "\u{89}no").unwrap();
+    std::fs::write(folder.path().join("empty.exr"), "").unwrap();
+    for face in ["px", "nx", "py", "pz", "nz"] {
+        std::fs::copy(
+            folder.path().join("small.exr"),
+            folder.path().join(format!("sky_{face}.exr")),
+        )
+        .unwrap();
+    }
+    for (words, help) in [
+        ("empty.exr new.png", "empty; "),
+        ("sky_%f.exr new.png", "not there: sky_ny.exr; "),
+    ] {
+        let run = convert(folder.path(), words);
+        assert_eq!(run.status, 1, "{words}");
+        assert!(run.err.contains(help), "{words}: {}", run.err);
+    }
     let before = files(folder.path());
     // The command line names its own options; a window has others.
     done(folder.path(), "small.exr square.png --to octahedral");

@@ -9,7 +9,7 @@ use super::raw::RawFrames;
 use crate::imaging::load::Format;
 use crate::imaging::resample::{Conversion, Filter};
 use crate::imaging::save::format_of_path;
-use crate::imaging::{Environment, OpenHints, Siting, atomic, face_name};
+use crate::imaging::{Environment, OpenHints, Siting, Transfer, atomic, face_name};
 use crate::mapping::{Frame, Layout, MappingId};
 
 /// Where maps come from.
@@ -183,7 +183,7 @@ pub(super) fn input(options: &ConvertOptions) -> Result<Input, ConvertError> {
         arrange: arrange.map_err(|error| ConvertError::usage(format!("{error}")))?,
         mirrored: options.from_mirrored,
         siting: options.from_samples.map(Siting::from),
-        transfer: None,
+        transfer: options.from_transfer.map(Transfer::from),
     };
     if let Some(word) = options.from_layout.as_deref() {
         let Some(mapping) = options.from else {
@@ -199,6 +199,9 @@ pub(super) fn input(options: &ConvertOptions) -> Result<Input, ConvertError> {
         ));
     }
     if let (Some(words), Some(mapping)) = (&options.raw, options.from) {
+        if hints.transfer.is_some() {
+            return refuse("a raw format says what its numbers are; leave --from-transfer out");
+        }
         let frames = RawFrames::parse(words).map_err(ConvertError::Usage)?;
         if hints.layout == Some(Layout::Faces) {
             return refuse("a raw frame is one picture; choose another --from-layout than faces");
@@ -220,6 +223,7 @@ pub(super) fn input(options: &ConvertOptions) -> Result<Input, ConvertError> {
             (options.arrange.is_some(), "--arrange"),
             (options.from_mirrored, "--from-mirrored"),
             (options.from_samples.is_some(), "--from-samples"),
+            (options.from_transfer.is_some(), "--from-transfer"),
         ];
         return match said.iter().find(|(given, _)| *given) {
             Some((_, name)) => refuse(format!(
@@ -228,6 +232,15 @@ pub(super) fn input(options: &ConvertOptions) -> Result<Input, ConvertError> {
             )),
             None => Ok(Input::BuiltIn(environment)),
         };
+    }
+    let is_bare = options.input.components().count() == 1 && options.input.extension().is_none();
+    if is_bare && !options.input.exists() {
+        let built_in = Environment::ALL_BUILT_IN.map(|environment| environment.id());
+        return refuse(format!(
+            "neither a file nor a built-in environment is called `{}`; built in are: {}",
+            options.input.display(),
+            built_in.join(", ")
+        ));
     }
     Ok(Input::Files {
         name: Name::new(&options.input),

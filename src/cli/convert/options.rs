@@ -51,6 +51,15 @@ pub(in crate::cli) struct ConvertOptions {
     /// Where the samples of IN sit
     #[arg(long, value_enum, value_name = "WHERE", help_heading = "What comes in")]
     pub from_samples: Option<SamplesAt>,
+    /// How the numbers of IN become light; left out: floats are light, codes of 8 and 16 bits are sRGB's unless the file
+    /// says otherwise
+    #[arg(
+        long,
+        value_enum,
+        value_name = "TRANSFER",
+        help_heading = "What comes in"
+    )]
+    pub from_transfer: Option<Numbers>,
     /// Read frames of WxH pixels from standard input until it ends and write each converted frame to standard output, in
     /// the same format: rgb24, rgb48le or rgbf32le
     #[arg(long, num_args = 2, value_names = ["FORMAT", "WxH"], help_heading = "What comes in")]
@@ -215,6 +224,24 @@ impl From<SamplesAt> for Siting {
         match at {
             SamplesAt::Centre => Self::Centre,
             SamplesAt::Edge => Self::Edge,
+        }
+    }
+}
+
+/// What the numbers of a file are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Numbers {
+    /// Light: of a whole number, its share of the largest
+    Linear,
+    /// Codes of sRGB
+    Srgb,
+}
+
+impl From<Numbers> for Transfer {
+    fn from(numbers: Numbers) -> Self {
+        match numbers {
+            Numbers::Linear => Self::Linear,
+            Numbers::Srgb => Self::Srgb,
         }
     }
 }

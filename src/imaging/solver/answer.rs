@@ -1,6 +1,6 @@
 //! The answer in words.
 
-use super::Solution;
+use super::{CLEARLY, Solution};
 use crate::imaging::detect::MEETS;
 use crate::mapping::cube_face::FACES;
 use crate::mapping::{Arrangement, Held};
@@ -21,6 +21,16 @@ impl Solution {
         if score > MEETS {
             return format!(
                 "cannot tell: even put together best, the pictures differ {score:.1} times as much across seams as beside them"
+            );
+        }
+        // Of ways that fit alike, the one that the labels say needs no other reason.
+        if let Some(as_labelled) = self
+            .as_labelled
+            .filter(|labelled| *labelled < CLEARLY * score)
+        {
+            return format!(
+                "cannot tell, but every face may be where its name says: no other way fits clearly better (seams {as_labelled:.2} times \
+                 as rough as beside them, {score:.2} at best)"
             );
         }
         format!(
