@@ -255,6 +255,9 @@ fn keys_move_the_probe_by_texels_and_undo_takes_changes_back() {
 #[test]
 fn controls_are_found_by_their_labels_and_do_what_they_say() {
     let mut ui = open(small());
+    // It may lie below what the window shows of the controls.
+    ui.get_by_label("great circles A to F").scroll_to_me();
+    ui.run_steps(30);
     ui.get_by_label("great circles A to F").click();
     ui.run_steps(3);
     assert!(ui.state().explorer().state().overlays.great_circles);

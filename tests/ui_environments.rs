@@ -129,7 +129,7 @@ fn an_export_is_chosen_by_program_and_opens_again() {
     settle(&mut ui);
     assert!(ui.query_by_label_contains("--envmap").is_none());
     choose(&mut ui, "frame", "OpenEXR");
-    ui.get_by_label_contains("--to latlong --size 512 --layout single --to-frame openexr --rotate 90,0,0 --filter lanczos");
+    ui.get_by_label_contains("--to latlong --size 1024 --layout single --to-frame openexr --rotate 90,0,0 --filter lanczos");
     ui.get_by_label_contains("--envmap");
     let path = folder.path().join("sky.ktx2");
     let export = Export {
@@ -177,6 +177,130 @@ fn an_export_is_chosen_by_program_and_opens_again() {
             .last()
             .is_some_and(|m| m.is_error && m.text.contains("sky.ktx2"))
     );
+}
+
+#[test]
+fn an_export_is_as_fine_as_its_environment_until_rows_are_chosen() {
+    let picture = Environment::DirectionColor.image(&Progress::new()).unwrap();
+    let [width, height] = [picture.image.width(), picture.image.height()];
+    let mut ui = open(small());
+    run(&mut ui, Command::ShowExport);
+    ui.get_by_label_contains(&format!("--to cube --size {} ", width / 4));
+    ui.get_by_label("Blender").click();
+    settle(&mut ui);
+    ui.get_by_label_contains(&format!("--to latlong --size {height} "));
+    // Another number stays, whatever the mapping.
+    ui.get_by_label("as fine as the environment").click();
+    settle(&mut ui);
+    ui.get_by_label("Bevy").click();
+    settle(&mut ui);
+    ui.get_by_label_contains(&format!("--to cube --size {height} "));
+    ui.get_by_label("as fine as the environment").click();
+    settle(&mut ui);
+    ui.get_by_label_contains(&format!("--to cube --size {} ", width / 4));
+}
+
+#[test]
+fn a_refused_export_is_asked_for_again_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("taken.exr");
+    std::fs::write(&path, b"mine").unwrap();
+    let mut ui = open(small());
+    run(&mut ui, Command::ShowExport);
+    assert!(ui.query_by_label_contains("taken.exr").is_none());
+    let export = Export {
+        mapping: MappingId::Eac,
+        path: path.display().to_string(),
+        ..Export::default()
+    };
+    run(&mut ui, Command::Export(Box::new(export)));
+    assert!(ui.state().explorer().messages()[0].is_error);
+    run(&mut ui, Command::ShowExport);
+    ui.get_by_label_contains("taken.exr --to eac");
+    assert_eq!(std::fs::read(&path).unwrap(), b"mine");
+}
+
+#[test]
+fn a_path_is_typed_without_a_click_and_ends_with_enter() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("none.hdr");
+    let mut ui = open(small());
+    ui.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::O);
+    settle(&mut ui);
+    ui.event(egui::Event::Text(path.display().to_string()));
+    settle(&mut ui);
+    assert_eq!(ui.state().explorer().messages(), []);
+    ui.key_press(egui::Key::Enter);
+    settle(&mut ui);
+    let messages = ui.state().explorer().messages();
+    assert!(messages[0].text.contains("none.hdr"), "{messages:?}");
+    assert!(ui.query_by_label_contains("Dropping the file").is_none());
+}
+
+#[test]
+fn of_what_went_well_the_newest_is_shown_and_every_failure() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut ui = open(small());
+    let mut save = |name: &str| {
+        let path = folder.path().join(name);
+        run(&mut ui, Command::SaveScene { path, force: false });
+        let messages = ui.state().explorer().messages().iter();
+        messages
+            .map(|m| m.text.clone())
+            .collect::<Vec<_>>()
+            .join("|")
+    };
+    let first = save("first.json");
+    assert!(first.contains("first.json"), "{first}");
+    // It is there already.
+    save("first.json");
+    save("second.json");
+    save("third.json");
+    let last = save("fourth.json");
+    assert!(last.contains("third.json") && last.contains("fourth.json"));
+    assert!(last.contains("exists"), "{last}");
+    assert!(!last.contains("second.json"), "{last}");
+}
+
+#[test]
+fn a_turn_of_many_digits_leaves_the_controls_as_wide() {
+    let mut ui = open(small());
+    let left_of_panels = |ui: &Ui| ui.get_by_label("Viewport").rect().min.x;
+    let before = left_of_panels(&ui);
+    let turn = Rotation::from_degrees([-120.55, -45.55, -123.45]);
+    run(&mut ui, Action::SetRotation(turn));
+    assert_eq!(left_of_panels(&ui), before);
+    for name in ["yaw", "pitch", "roll"] {
+        let number = ui.get_by_role_and_label(egui::Role::SpinButton, name);
+        assert!(number.rect().max.x < before - 4.0, "{:?}", number.rect());
+    }
+}
+
+#[test]
+fn a_narrow_window_is_mostly_panels_and_its_bars_do_not_overlap() {
+    let mut ui = window_kit::open_sized(small(), 800.0, 600.0);
+    let panels = |ui: &Ui| 800.0 - ui.get_by_label("Viewport").rect().min.x;
+    assert!(panels(&ui) > 500.0, "{}", panels(&ui));
+    assert!(ui.query_by_label("Which face: the sign table").is_none());
+    ui.get_by_label("Inspector").click();
+    settle(&mut ui);
+    ui.get_by_label("Which face: the sign table");
+    assert!(
+        ui.query_by_label("compared, right of the divider")
+            .is_none()
+    );
+    assert!(panels(&ui) > 380.0, "{}", panels(&ui));
+    ui.get_by_label("Controls").click();
+    settle(&mut ui);
+    ui.get_by_label("compared, right of the divider");
+    let plan = ui.get_by_label_contains("textures").rect();
+    let hint = ui.get_by_label_contains("the probe follows").rect();
+    assert!(plan.max.x <= hint.min.x, "{plan:?} {hint:?}");
+    // A wide one has both, and no names to choose by.
+    ui.set_size(egui::vec2(1280.0, 800.0));
+    settle(&mut ui);
+    ui.get_by_label("Which face: the sign table");
+    assert!(ui.query_by_label("Inspector").is_none());
 }
 
 /// The light that the environment has in a direction, looked up in its picture.

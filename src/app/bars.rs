@@ -36,7 +36,7 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
                 .button("Export the environment …   Ctrl+Shift+E")
                 .clicked()
             {
-                *dialog = Some(Dialog::Export(Box::default()));
+                model.push(Command::ShowExport);
                 ui.close();
             }
             ui.separator();
@@ -59,11 +59,15 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
         });
         ui.menu_button("View", |ui| {
             let mut controls = model.state.controls_open;
+            let mut inspector = model.state.inspector;
             if ui.checkbox(&mut controls, "Controls").changed() {
                 model.push(Action::SetControlsOpen(controls));
+                inspector.in_front &= !controls;
             }
-            let mut inspector = model.state.inspector;
             if ui.checkbox(&mut inspector.open, "Inspector").changed() {
+                inspector.in_front = inspector.open;
+            }
+            if inspector != model.state.inspector {
                 model.push(Action::SetInspector(inspector));
             }
             for pane in Pane::READ {
@@ -159,24 +163,24 @@ pub fn status_ui(ui: &mut Ui, model: &mut Model<'_>) {
             }
             ui.separator();
         }
-        ui.label(RichText::new(model.plan).small());
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.label(
-                RichText::new(format!("frame {}", model.frames))
-                    .small()
-                    .color(egui::Color32::from_gray(165)),
-            );
+            let small = |text: String| RichText::new(text).small();
+            let grey = egui::Color32::from_gray(165);
+            ui.label(small(format!("frame {}", model.frames)).color(grey));
             ui.separator();
-            let hint = if model.state.probe_follows {
-                "the probe follows the pointer; click keeps it"
-            } else {
-                "the probe is kept; Esc lets it follow"
-            };
-            ui.label(
-                RichText::new(hint)
-                    .small()
-                    .color(egui::Color32::from_gray(165)),
-            );
+            // Beside a job's progress there is little room, and its button must be in reach.
+            if model.jobs.is_empty() {
+                let hint = if model.state.probe_follows {
+                    "the probe follows the pointer; click keeps it"
+                } else {
+                    "the probe is kept; Esc lets it follow"
+                };
+                ui.label(small(hint.to_owned()).color(grey));
+                ui.separator();
+            }
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                ui.add(egui::Label::new(small(model.plan.to_owned())).truncate());
+            });
         });
     });
 }

@@ -36,6 +36,8 @@ pub enum Command {
     },
     /// Draw a picture in a job, for a file or the clipboard.
     MakePicture(PictureRequest),
+    /// Show the dialog that exports the environment, as it was used last.
+    ShowExport,
     /// Write the environment for another program, in a job.
     Export(Box<Export>),
     /// Stop a running job.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use egui::{ComboBox, DragValue, Modal, TextEdit, Ui};
+use egui::{ComboBox, DragValue, Key, Modal, TextEdit, Ui};
 
 use super::action::Action;
 use super::command::Command;
@@ -128,26 +128,32 @@ pub fn dialog_ui(ctx: &egui::Context, model: &mut Model<'_>, dialog: &mut Option
     }
 }
 
-/// A line for a path and a button for the system's own dialog.
-pub(super) fn path_ui(ui: &mut Ui, path: &mut String, label: &str) -> bool {
-    let mut browse = false;
+/// A line for a path and a button for the system's own dialog; true when Enter ends the path. A line that is still empty
+/// takes what is typed without a click.
+pub(super) fn path_ui(ui: &mut Ui, model: &mut Model<'_>, path: &mut String) -> bool {
+    let mut is_entered = false;
     ui.horizontal(|ui| {
-        let name = ui.label(label);
+        let name = ui.label("file");
         let width = ui.available_width() - 84.0;
-        ui.add(TextEdit::singleline(path).desired_width(width))
+        let line = ui
+            .add(TextEdit::singleline(path).desired_width(width))
             .labelled_by(name.id);
-        browse = ui.button("Browse …").clicked();
+        is_entered = line.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+        if path.is_empty() && ui.memory(|memory| memory.focused().is_none()) {
+            line.request_focus();
+        }
+        if ui.button("Browse …").clicked() {
+            model.push(Command::Browse);
+        }
     });
-    browse
+    is_entered
 }
 
 fn open_ui(ui: &mut Ui, model: &mut Model<'_>, path: &mut String) -> bool {
     ui.heading("Open");
     ui.label("An environment (HDR, EXR, PNG, JPEG, KTX2 or DDS: a latlong, a cube in any layout, or one of six files named px, nx and so on), a model (OBJ, glTF or GLB), a scene, or a picture that Sixfold saved. Dropping the file onto the window does the same.");
-    if path_ui(ui, path, "file") {
-        model.push(Command::Browse);
-    }
-    buttons_ui(ui, "Open", !path.trim().is_empty(), || {
+    let is_entered = path_ui(ui, model, path);
+    buttons_ui(ui, "Open", !path.trim().is_empty(), is_entered, || {
         model.push(Command::Open(PathBuf::from(path.trim())));
     })
 }
@@ -155,10 +161,8 @@ fn open_ui(ui: &mut Ui, model: &mut Model<'_>, path: &mut String) -> bool {
 fn open_ball_ui(ui: &mut Ui, model: &mut Model<'_>, path: &mut String) -> bool {
     ui.heading("Open a picture of a ball");
     ui.label("A square picture (PNG, JPEG, HDR or EXR) that the ball fills: a matcap. Each point of the object takes the colour of the ball where it faces the same way.");
-    if path_ui(ui, path, "file") {
-        model.push(Command::Browse);
-    }
-    buttons_ui(ui, "Open", !path.trim().is_empty(), || {
+    let is_entered = path_ui(ui, model, path);
+    buttons_ui(ui, "Open", !path.trim().is_empty(), is_entered, || {
         let action = ball_from(&model.state.material, PathBuf::from(path.trim()));
         model.push(action);
     })
@@ -177,12 +181,10 @@ pub fn ball_from(material: &Material, path: PathBuf) -> Action {
 fn save_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut SaveDialog) -> bool {
     ui.heading("Save the scene");
     ui.label("Everything that the window shows, as a small text file; an environment's file is named, not copied.");
-    if path_ui(ui, &mut fields.path, "file") {
-        model.push(Command::Browse);
-    }
+    let is_entered = path_ui(ui, model, &mut fields.path);
     ui.checkbox(&mut fields.force, "replace the file if it exists");
     let path = fields.path.trim();
-    buttons_ui(ui, "Save", !path.is_empty(), || {
+    buttons_ui(ui, "Save", !path.is_empty(), is_entered, || {
         model.push(Command::SaveScene {
             path: PathBuf::from(path),
             force: fields.force,
@@ -190,12 +192,19 @@ fn save_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut SaveDialog) -> bool 
     })
 }
 
-/// The last row: the deed and a way out; true when the dialog is done with.
-pub(super) fn buttons_ui(ui: &mut Ui, deed: &str, ready: bool, act: impl FnOnce()) -> bool {
+/// The last row: the deed, which Enter asks for too, and a way out; true when the dialog is done with.
+pub(super) fn buttons_ui(
+    ui: &mut Ui,
+    deed: &str,
+    ready: bool,
+    is_entered: bool,
+    act: impl FnOnce(),
+) -> bool {
     ui.add_space(6.0);
     let mut done = false;
     ui.horizontal(|ui| {
-        if ui.add_enabled(ready, egui::Button::new(deed)).clicked() {
+        let button = ui.add_enabled(ready, egui::Button::new(deed));
+        if button.clicked() || (ready && is_entered) {
             act();
             done = true;
         }
@@ -230,9 +239,7 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
         ui.add(DragValue::new(&mut fields.size[1]).range(1..=MAX_SIDE));
         ui.label(format!("pixels, at most {MAX_SIDE} a side"));
     });
-    if path_ui(ui, &mut fields.path, "file") {
-        model.push(Command::Browse);
-    }
+    let is_entered = path_ui(ui, model, &mut fields.path);
     ui.checkbox(&mut fields.force, "replace the file if it exists");
     ui.add_space(6.0);
     let mut done = false;
@@ -246,10 +253,8 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
         let path = fields.path.trim();
         let is_png = path.to_ascii_lowercase().ends_with(".png");
         let save = ui.add_enabled(is_png, egui::Button::new("Save"));
-        if save
-            .on_disabled_hover_text("The name must end in .png")
-            .clicked()
-        {
+        let save = save.on_disabled_hover_text("The name must end in .png");
+        if save.clicked() || (is_png && is_entered) {
             let to = Destination::File {
                 path: PathBuf::from(path),
                 force: fields.force,

@@ -6,12 +6,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::mutex::RwLock;
-use egui::{CentralPanel, Context, Panel, Ui};
+use egui::{Context, Panel, Ui};
 
 use super::action::{Action, apply};
 use super::arrangement::{Arrangement, Pane};
 use super::command::Command;
 use super::dialogs::{Dialog, dialog_ui};
+use super::export::Export;
 use super::files::Opened;
 use super::frame::frame_of;
 use super::history::History;
@@ -26,7 +27,7 @@ use super::reading::{Reading, Refusal};
 use super::state::{AppState, unit};
 use super::texel_color::{TexelColor, TexelKey};
 use super::views::{ViewKey, Views};
-use super::{bars, controls, inspector, keys, story, viewport};
+use super::{bars, keys, sides, story, viewport};
 use crate::gpu::{Gpu, Renderer};
 use crate::imaging::Environment;
 
@@ -61,6 +62,8 @@ pub struct Explorer {
     paces: Paces,
     messages: Vec<Message>,
     dialog: Option<Dialog>,
+    /// What was wanted of the last export: what failed for its name alone need not be said anew.
+    last_export: Export,
     next_job: u64,
     frames: u64,
     plan: String,
@@ -98,6 +101,7 @@ impl Explorer {
             paces: Paces::default(),
             messages: Vec::new(),
             dialog: None,
+            last_export: Export::default(),
             next_job: 1,
             frames: 0,
             plan: String::new(),
@@ -376,6 +380,9 @@ impl Explorer {
             Command::Open(path) => self.open(ctx, path),
             Command::SaveScene { path, force } => self.save_scene(ctx, path, force),
             Command::MakePicture(request) => self.make_picture(ctx, request),
+            Command::ShowExport => {
+                self.dialog = Some(Dialog::Export(Box::new(self.last_export.clone())));
+            }
             Command::Export(export) => self.export(ctx, *export),
             Command::Cancel(id) => self.cancel(id),
             Command::MeasureLoss => self.labs.loss.try_again(),
@@ -460,12 +467,21 @@ impl Explorer {
         });
     }
 
-    /// Shows a message once; the newest four stay.
+    /// Shows a message once. The newest four stay; of those that only tell what went well one, and the one before it, which
+    /// may be of the same deed.
     fn message(&mut self, message: Message) {
         const MOST: usize = 4;
+        const MOST_TOLD: usize = 2;
         if self.messages.last() != Some(&message) {
             self.messages.push(message);
         }
+        let told = self.messages.iter().filter(|m| !m.is_error).count();
+        let mut over = told.saturating_sub(MOST_TOLD);
+        self.messages.retain(|message| {
+            let goes = !message.is_error && over > 0;
+            over -= usize::from(goes);
+            !goes
+        });
         while self.messages.len() > MOST {
             self.messages.remove(0);
         }
@@ -491,17 +507,5 @@ fn window_ui(
 ) {
     Panel::top("menu").show(ui, |ui| bars::menu_ui(ui, model, dialog));
     Panel::bottom("status").show(ui, |ui| bars::status_ui(ui, model));
-    if model.state.controls_open {
-        Panel::left("controls")
-            .default_size(196.0)
-            .size_range(160.0..=320.0)
-            .show(ui, |ui| controls::controls_ui(ui, model));
-    }
-    if model.state.inspector.open {
-        Panel::right("inspector")
-            .default_size(372.0)
-            .size_range(260.0..=640.0)
-            .show(ui, |ui| inspector::inspector_ui(ui, model));
-    }
-    CentralPanel::no_frame().show(ui, |ui| panes::panes_ui(ui, model, tree));
+    sides::sides_ui(ui, model, tree);
 }

@@ -15,6 +15,9 @@ use crate::imaging::{
 use crate::mapping::{Frame, Layout, MappingId};
 use crate::math::Rotation;
 
+/// Rows that a chart may have: a float cube of it still fits into the memory of a plain machine.
+pub const MOST_ROWS: u32 = 8192;
+
 /// What stands in the name of six files for the name of each.
 pub const FACE: &str = "%f";
 
@@ -82,6 +85,8 @@ pub struct Export {
     pub stored: Stored,
     /// Rows of a chart.
     pub height: u32,
+    /// The rows follow the environment: [`Export::follow`].
+    pub as_fine: bool,
     /// All smaller levels too.
     pub has_levels: bool,
     /// Levels are compressed.
@@ -107,6 +112,7 @@ impl Default for Export {
             format: Format::Exr,
             stored: Stored::Half,
             height: 512,
+            as_fine: true,
             has_levels: false,
             zstd: false,
             filter: None,
@@ -197,6 +203,15 @@ impl Export {
                 _ => stem,
             };
             self.path = format!("{stem}.{ending}");
+        }
+    }
+
+    /// Takes over from the scene what belongs to it: the turn, and as many texels around the horizon as its latlong picture
+    /// of `size` has, unless the rows were chosen.
+    pub fn follow(&mut self, rotation: Rotation, size: Option<[u32; 2]>) {
+        self.rotation = rotation;
+        if let Some(size) = size.filter(|_| self.as_fine) {
+            self.height = equal_rows(self.mapping, MappingId::Latlong, size).clamp(1, MOST_ROWS);
         }
     }
 

@@ -4,11 +4,11 @@ use egui::{ComboBox, DragValue, Grid, RichText, Ui};
 
 use super::command::Command;
 use super::dialogs::{buttons_ui, path_ui};
-use super::export::{Export, FORMATS, Preset, kind_names, kinds};
+use super::export::{Export, FORMATS, MOST_ROWS, Preset, kind_names, kinds};
 use super::model::Model;
 use super::pace::Pace;
 use crate::imaging::load::Format;
-use crate::imaging::resample::{Filter, MOST_SIDE, chart_size};
+use crate::imaging::resample::{Filter, chart_size};
 use crate::mapping::{Frame, Layout, MappingId};
 
 /// A row of the form: a name and a list to choose from.
@@ -35,6 +35,21 @@ pub(super) fn row_ui<T: PartialEq + Clone>(
     *now != before
 }
 
+/// A command line to copy, in letters of one width: two hyphens look like two.
+pub(super) fn line_ui(ui: &mut Ui, model: &mut Model<'_>, line: String) {
+    ui.horizontal(|ui| {
+        let text = RichText::new(&line).monospace().size(LINE_SIZE);
+        let copies = ui.button("Copy the line").clicked();
+        ui.add(egui::Label::new(text).wrap());
+        if copies {
+            model.push(Command::CopyText(line));
+        }
+    });
+}
+
+/// Points of a command line's letters: as small as the window's smallest.
+const LINE_SIZE: f32 = 11.0;
+
 /// The whole form; true when it is done with.
 pub fn export_ui(ui: &mut Ui, model: &mut Model<'_>, export: &mut Export) -> bool {
     ui.heading("Export the environment");
@@ -49,25 +64,20 @@ pub fn export_ui(ui: &mut Ui, model: &mut Model<'_>, export: &mut Export) -> boo
     Grid::new("export")
         .num_columns(2)
         .show(ui, |ui| form_ui(ui, export));
-    export.rotation = model.state.rotation;
+    let image = model.surroundings.map(|shown| &shown.loaded.image);
+    let size = image.map(|image| [image.width(), image.height()]);
+    export.follow(model.state.rotation, size);
     if !export.rotation.is_none() {
         ui.label(format!("turned as the scene is, by {}", export.rotation));
     }
     let input = model.state.environment.id();
-    if path_ui(ui, &mut export.path, "file") {
-        model.push(Command::Browse);
-    }
+    let is_entered = path_ui(ui, model, &mut export.path);
     ui.checkbox(&mut export.force, "replace the file if it exists");
     ui.label(estimate(export, model.paces.of(export)));
     let line = export.command_line(&input, &model.state.environment.hints());
-    ui.horizontal(|ui| {
-        if ui.button("Copy the line").clicked() {
-            model.push(Command::CopyText(line.clone()));
-        }
-        ui.add(egui::Label::new(RichText::new(&line).monospace().small()).wrap());
-    });
+    line_ui(ui, model, line);
     let ready = model.surroundings.is_some() && !export.path.trim().is_empty();
-    buttons_ui(ui, "Export", ready, || {
+    buttons_ui(ui, "Export", ready, is_entered, || {
         model.push(Command::Export(Box::new(export.clone())));
     })
 }
@@ -115,10 +125,18 @@ fn form_ui(ui: &mut Ui, export: &mut Export) {
     row_ui(ui, "filter", &mut export.filter, &filters, filter_name);
     let label = ui.label("rows of a chart");
     ui.horizontal(|ui| {
-        let rows = DragValue::new(&mut export.height).range(1..=MOST_SIDE.min(8192));
-        ui.add(rows).labelled_by(label.id);
+        let rows = DragValue::new(&mut export.height).range(1..=MOST_ROWS);
+        if ui.add(rows).labelled_by(label.id).changed() {
+            export.as_fine = false;
+        }
         let [width, height] = chart_size(export.mapping, export.height);
         ui.label(format!("{charts} × {width}×{height} texels"));
+    });
+    ui.end_row();
+    ui.label("");
+    ui.horizontal(|ui| {
+        ui.checkbox(&mut export.as_fine, "as fine as the environment")
+            .on_hover_text("As many texels around the horizon as the environment has");
     });
     ui.end_row();
     ui.label("");

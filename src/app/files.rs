@@ -88,7 +88,7 @@ fn environment(path: &Path) -> Opened {
 }
 
 /// A path of its own: a scene that is opened from elsewhere must find the file again.
-fn absolute(path: &Path) -> PathBuf {
+pub(super) fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 

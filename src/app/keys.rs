@@ -109,7 +109,7 @@ fn shortcuts(ctx: &Context, commands: &mut Vec<Command>, dialog: &mut Option<Dia
         *dialog = Some(Dialog::SaveScene(SaveDialog::default()));
     }
     if control(Modifiers::SHIFT, Key::E) {
-        *dialog = Some(Dialog::Export(Box::default()));
+        commands.push(Command::ShowExport);
     }
     if control(Modifiers::NONE, Key::E) {
         *dialog = Some(Dialog::Picture(PictureDialog::default()));

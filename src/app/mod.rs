@@ -38,6 +38,7 @@ pub mod picture;
 pub mod probe;
 mod reading;
 mod reading_dialog;
+mod sides;
 pub mod state;
 mod story;
 mod texel_color;

@@ -8,14 +8,14 @@ use egui::{
 use super::command::Command;
 use super::dialogs::buttons_ui;
 use super::export::quoted;
-use super::export_dialog::row_ui;
+use super::export_dialog::{line_ui, row_ui};
 use super::marks::edged_text;
 use super::model::Model;
 use super::reading::{Reading, Shown, Taken};
 use super::theme;
 use crate::imaging::detect::{MEETS, Proposal};
 use crate::imaging::solver::Solution;
-use crate::imaging::{MapFile, OpenHints, Pictures, Siting, short_name};
+use crate::imaging::{MapFile, OpenHints, Pictures, Siting, Transfer, short_name};
 use crate::mapping::cube_face::FACES;
 use crate::mapping::{Arrangement, Frame, Held, Layout, MappingId, Turn};
 
@@ -84,11 +84,11 @@ pub fn reading_ui(ui: &mut Ui, model: &mut Model<'_>, file: &mut MapFile) -> boo
         .small(),
     );
     let said = taken.and_then(|taken| Some(taken.as_ref().ok()?.chosen.hints(&file.hints)));
-    line_ui(ui, model, file, said.as_ref());
+    reading_line_ui(ui, model, file, said.as_ref());
     let is_settled = reading.is_some_and(|reading| reading.job().is_none());
     let said = said.filter(|_| is_settled);
     let path = &file.path;
-    buttons_ui(ui, "Open", said.is_some(), || {
+    buttons_ui(ui, "Open", said.is_some(), false, || {
         if let Some(hints) = said {
             let path = path.clone();
             model.push(Command::LoadFile(MapFile { path, hints }));
@@ -97,7 +97,7 @@ pub fn reading_ui(ui: &mut Ui, model: &mut Model<'_>, file: &mut MapFile) -> boo
 }
 
 /// The command line that reads the file so.
-fn line_ui(ui: &mut Ui, model: &mut Model<'_>, file: &MapFile, said: Option<&OpenHints>) {
+fn reading_line_ui(ui: &mut Ui, model: &mut Model<'_>, file: &MapFile, said: Option<&OpenHints>) {
     let mut words = vec![
         "sixfold convert".to_owned(),
         quoted(&file.path.display().to_string()),
@@ -107,13 +107,7 @@ fn line_ui(ui: &mut Ui, model: &mut Model<'_>, file: &MapFile, said: Option<&Ope
         words.push(name.to_owned());
         words.extend(value.as_deref().map(quoted));
     }
-    let line = words.join(" ");
-    ui.horizontal(|ui| {
-        if ui.button("Copy the line").clicked() {
-            model.push(Command::CopyText(line.clone()));
-        }
-        ui.add(egui::Label::new(RichText::new(&line).monospace().small()).wrap());
-    });
+    line_ui(ui, model, words.join(" "));
 }
 
 fn failure_ui(ui: &mut Ui, why: &str) {
@@ -139,6 +133,13 @@ fn form_ui(ui: &mut Ui, pictures: &Pictures, taken: &Result<Taken, String>, hint
         if row_ui(ui, "samples", &mut siting, &sitings, name) {
             hints.siting = siting;
         }
+        let ways = [None, Some(Transfer::Linear), Some(Transfer::Srgb)];
+        let name = |transfer: &Option<Transfer>| match transfer {
+            None => "as its format has them".to_owned(),
+            Some(Transfer::Linear) => "light".to_owned(),
+            Some(Transfer::Srgb) => "codes of sRGB".to_owned(),
+        };
+        row_ui(ui, "numbers", &mut hints.transfer, &ways, name);
     });
     if let Some(frame) = said_frame(chosen, hints) {
         ui.label(RichText::new(format!("{}: {}", frame.name, frame.about)).small());

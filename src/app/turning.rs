@@ -3,7 +3,7 @@
 //! Each ring turns one of the numbers and nothing else: the roll's ring stands upright, the pitch's is carried along by the roll, the
 //! yaw's by both. On each ring a knob stands at its angle; it goes where the surroundings go.
 
-use egui::{Align2, DragValue, Painter, Pos2, Rect, Sense, Ui, Vec2, vec2};
+use egui::{Align2, DragValue, Grid, Painter, Pos2, Rect, Sense, Ui, Vec2, vec2};
 use glam::DVec3;
 
 use super::action::Action;
@@ -36,16 +36,16 @@ pub fn rotation_ui(ui: &mut Ui, model: &mut Model<'_>) {
     ui.label("turn of the environment");
     let mut degrees = rotation.degrees();
     let mut changed = false;
-    ui.horizontal_wrapped(|ui| {
+    // A row for each: side by side, three angles of five digits are wider than the controls.
+    Grid::new("turn").num_columns(2).show(ui, |ui| {
         for ((name, sense), angle) in NAMES.iter().zip(SENSES).zip(&mut degrees) {
-            ui.horizontal(|ui| {
-                let label = ui.label(*name);
-                let number = DragValue::new(angle).suffix("°").speed(0.5).max_decimals(2);
-                let response = ui.add(number).labelled_by(label.id);
-                changed |= response
-                    .on_hover_text(format!("{name} > 0 {sense}"))
-                    .changed();
-            });
+            let label = ui.label(*name);
+            let number = DragValue::new(angle).suffix("°").speed(0.5).max_decimals(2);
+            let response = ui.add(number).labelled_by(label.id);
+            changed |= response
+                .on_hover_text(format!("{name} > 0 {sense}"))
+                .changed();
+            ui.end_row();
         }
     });
     if changed {

@@ -173,11 +173,19 @@ impl Explorer {
             return;
         };
         let environment = shown.environment.clone();
+        // Replacing is allowed once, for the file that was asked about.
+        self.last_export = Export {
+            force: false,
+            ..export.clone()
+        };
         self.send(ctx, "exporting the environment", move |progress| {
             let start = std::time::Instant::now();
             export.write(&environment, progress)?;
             Ok(Errand {
-                message: format!("The environment is in {}", export.path),
+                message: format!(
+                    "The environment is in {}",
+                    files::absolute(Path::new(&export.path)).display()
+                ),
                 picture: None,
                 rate: Some(export.texels() as f64 / start.elapsed().as_secs_f64()),
             })

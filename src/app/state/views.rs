@@ -89,6 +89,8 @@ impl PanelState {
 pub struct InspectorState {
     /// Shown at all.
     pub open: bool,
+    /// In front of the controls where a narrow window has room for one of both.
+    pub in_front: bool,
     /// The mapping whose steps are shown.
     pub mapping: MappingId,
     /// Numbers of which type.
@@ -103,6 +105,7 @@ impl Default for InspectorState {
     fn default() -> Self {
         Self {
             open: true,
+            in_front: false,
             mapping: MappingId::Ccm,
             precision: Precision::F32,
             conventions: false,
