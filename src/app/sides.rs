@@ -10,7 +10,7 @@ use super::model::Model;
 use super::panes::panes_ui;
 
 /// Points that each opens with, its margins left out.
-const CONTROLS_WIDTH: f32 = 196.0;
+const CONTROLS_WIDTH: f32 = 220.0;
 const INSPECTOR_WIDTH: f32 = 372.0;
 
 /// Points that the panels between them need: three maps beside each other whose marks can be told apart.
