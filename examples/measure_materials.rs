@@ -10,7 +10,7 @@ use sixfold::gpu::{
     ViewportFrame,
 };
 use sixfold::imaging::{Environment, Progress};
-use sixfold::mapping::MappingId;
+use sixfold::mapping::{MappingId, ShaderForm};
 use sixfold::optics::Material;
 use sixfold::optics::material::{Dispersion, Surface, Surfaces};
 use sixfold::scene::{Camera, Object, Target};
@@ -97,6 +97,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     overlays: Overlays::default(),
                     probe: [0.0, 0.0, 1.0],
                     show_probe: false,
+                    form: ShaderForm::Precise,
+                    form_difference: None,
                 }),
                 complete: true,
                 ..Frame::default()

@@ -1,8 +1,8 @@
-// Numbers: twin of src/math. The constants in capitals and the three *_series are written
-// in front of this file by src/gpu/shader.rs.
+// Numbers: twin of src/math. The constants in capitals are written in front of this file by src/gpu/shader.rs, and its angles
+// come from shaders/angles, one text for each form.
 //
-// No built-in inverse trigonometric function is called: the language allows them 4096 ULP. There is no test for NaN or
-// infinity either, because an implementation may assume that neither occurs; such a vector is refused by its size.
+// There is no test for NaN or infinity, because an implementation may assume that neither occurs; such a vector is refused by
+// its size.
 
 struct ChartPoint {
     chart: u32,
@@ -84,47 +84,4 @@ fn unit_in_plane(p: vec2f) -> vec2f {
     }
     let q = p / large;
     return q / sqrt(q.x * q.x + q.y * q.y);
-}
-
-// Arctangent of t in radians, |t| <= 1.
-fn atan_unit(t: f32) -> f32 {
-    let s = t * t;
-    return t + t * s * atan_series(s);
-}
-
-// Angle of the point (x, y) in radians, in [-pi, pi]; 0 at the origin and below the normal numbers.
-fn angle_of(y: f32, x: f32) -> f32 {
-    let ay = abs(y);
-    let ax = abs(x);
-    let large = max(ax, ay);
-    if large < SMALLEST_NORMAL {
-        return 0.0;
-    }
-    var angle = atan_unit(min(min(ax, ay) / large, 1.0));
-    if ay > ax {
-        angle = FRAC_PI_2 - angle;
-    }
-    if x < 0.0 {
-        angle = PI - angle;
-    }
-    return select(angle, -angle, y < 0.0);
-}
-
-// (sin, cos) of an angle in turns, |turns| <= 2.
-fn sin_cos_turns(turns: f32) -> vec2f {
-    let quarters = round(turns * 4.0);
-    let f = turns * 4.0 - quarters;
-    let s = f * f;
-    let angle = vec2f(f + f * sin_quarter_series(s), 1.0 + s * cos_quarter_series(s));
-    switch i32(quarters) & 3 {
-        case 1: { return vec2f(angle.y, -angle.x); }
-        case 2: { return -angle; }
-        case 3: { return vec2f(-angle.y, angle.x); }
-        default: { return angle; }
-    }
-}
-
-fn tan_turns(turns: f32) -> f32 {
-    let angle = sin_cos_turns(turns);
-    return angle.x / angle.y;
 }

@@ -10,7 +10,7 @@ struct View {
     forward: vec4f,
     right: vec4f,
     up: vec4f,
-    // The probe's unit direction.
+    // The probe's unit direction; w: by what differences of forms, in texels, are multiplied.
     probe: vec4f,
 }
 
@@ -29,7 +29,7 @@ struct Found {
 fn look_up(dir: vec3f, right: vec3f, down: vec3f) -> Found {
     var found = located(dir, right, down);
     if found.point.chart != NO_CHART {
-        found.light = map_light(found.point, chart_size(), found.level);
+        found.light = light_of(dir, found.point, found.level);
     }
     return found;
 }
@@ -56,7 +56,7 @@ fn look_up_beside(dir: vec3f, level: f32) -> vec3f {
     if p.chart == NO_CHART {
         return vec3f(0.0);
     }
-    return map_light(p, chart_size(), level);
+    return light_of(dir, p, level);
 }
 
 fn display(light: vec3f) -> vec3f {
@@ -97,5 +97,6 @@ fn seen(dir: vec3f, right: vec3f, down: vec3f) -> vec3f {
     if found.point.chart == NO_CHART {
         return vec3f(0.0);
     }
-    return painted(display(found.light), found, dir, right, down);
+    let shown = form_shown(display(found.light), dir, found.point);
+    return painted(shown, found, dir, right, down);
 }

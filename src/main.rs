@@ -6,13 +6,24 @@ use std::process::ExitCode;
 use sixfold::cli::{self, FigureOptions, RenderOptions, Request};
 
 fn main() -> ExitCode {
-    let status = match cli::run(std::env::args_os()) {
+    let status = match cli::run(std::env::args_os(), &shaders()) {
         Request::Done(status) => status,
         Request::Explore { scene } => explore(scene),
         Request::Render(options) => render(&options),
         Request::Figure(options) => figure(&options),
     };
     ExitCode::from(status)
+}
+
+/// What runs shaders for the command line; opened when a command asks for it.
+#[cfg(feature = "explorer")]
+fn shaders() -> impl sixfold::mapping::Device {
+    sixfold::gpu::ShaderDevice::new()
+}
+
+#[cfg(not(feature = "explorer"))]
+fn shaders() -> impl sixfold::mapping::Device {
+    sixfold::mapping::NoDevice(WITHOUT_EXPLORER)
 }
 
 /// 0, or one line on standard error and the status that comes with it.
@@ -174,7 +185,10 @@ fn figure(_options: &FigureOptions) -> u8 {
 }
 
 #[cfg(not(feature = "explorer"))]
+const WITHOUT_EXPLORER: &str = "built without the explorer; build it with `cargo build --release`";
+
+#[cfg(not(feature = "explorer"))]
 fn without_explorer() -> u8 {
-    cli::complain("built without the explorer; build it with `cargo build --release`");
+    cli::complain(WITHOUT_EXPLORER);
     cli::FAILED
 }

@@ -14,12 +14,14 @@ mod compare;
 
 use std::sync::OnceLock;
 
-use compare::{Errors, compare, directions, points, wrong_charts};
+use compare::{Errors, compare, directions, forward_of, inverse_of, points, wrong_charts};
 use sixfold::gpu::shader::{NO_CHART, for_mapping};
 use sixfold::gpu::{Gpu, GpuEvaluator};
-use sixfold::mapping::{ChartPoint, Cpu, Evaluator, MappingId};
+use sixfold::mapping::{ChartPoint, MappingId, ShaderForm};
 use sixfold::math::Vec3;
 
+/// The form that is changed.
+const PRECISE: ShaderForm = ShaderForm::Precise;
 /// Directions and chart points per mapping and adapter.
 const DIRECTIONS: usize = 400_000;
 const POINTS: usize = 200_000;
@@ -84,8 +86,8 @@ fn every_mapping_keeps_its_budget_on_every_adapter() {
             info.backend == wgpu::Backend::Vulkan && info.device_type == wgpu::DeviceType::Cpu;
         println!("{name}: observed/budget");
         for &id in MappingId::ALL {
-            let mut shader = GpuEvaluator::new(gpu, id).unwrap();
-            let (faults, observed) = compare(id, &mut shader, &dirs, &points(id, POINTS));
+            let shader = GpuEvaluator::new(gpu, id).unwrap();
+            let (faults, observed) = compare(id, &shader, &dirs, &points(id, POINTS));
             let table = observed.beside(budget(id));
             let cells = table.map(|(what, seen, budget)| format!("{what} {seen:.2e}/{budget:.1e}"));
             println!("  {:<24} {}", id.to_string(), cells.join("  "));
@@ -130,8 +132,8 @@ fn every_direction_gets_the_charts_of_the_cpu() {
     let dirs = directions(CHARTS);
     for gpu in gpus() {
         for &id in MappingId::ALL {
-            let mut shader = GpuEvaluator::new(gpu, id).unwrap();
-            let [missing, other] = wrong_charts(id, &mut shader, &dirs);
+            let shader = GpuEvaluator::new(gpu, id).unwrap();
+            let [missing, other] = wrong_charts(id, &shader, &dirs);
             assert_eq!(
                 [missing, other],
                 [0, 0],
@@ -159,8 +161,8 @@ fn every_direction_gets_the_charts_of_the_cpu() {
             "x <= 0.0",
         ),
     ] {
-        let mut shader = changed(id, from, to);
-        let [missing, other] = wrong_charts(id, &mut shader, &dirs);
+        let shader = changed(id, from, to);
+        let [missing, other] = wrong_charts(id, &shader, &dirs);
         assert!(missing + other > 0, "{id}: {to} was not noticed");
     }
 }
@@ -184,9 +186,8 @@ fn vectors_that_are_no_direction_and_points_off_the_chart_get_none() {
     let nowhere = none.len() + one_of_three.len();
     for gpu in gpus() {
         for &id in MappingId::ALL {
-            let mut shader = GpuEvaluator::new(gpu, id).unwrap();
-            let mut found = vec![Some(ChartPoint::new(9, 0.0, 0.0)); dirs.len()];
-            shader.forward(&dirs, &mut found).unwrap();
+            let shader = GpuEvaluator::new(gpu, id).unwrap();
+            let found = forward_of(&shader, &dirs).unwrap();
             assert!(
                 found[..nowhere].iter().all(Option::is_none),
                 "{id}: {found:?}"
@@ -211,15 +212,11 @@ fn vectors_that_are_no_direction_and_points_off_the_chart_get_none() {
                 ChartPoint::new(0, 0.0, 0.0),
                 ChartPoint::new(0, 0.5, 0.5),
             ];
-            let mut found = [None; 8];
-            let mut on_cpu = [None; 8];
-            shader.inverse(&off, &mut found).unwrap();
-            Cpu(id).inverse(&off, &mut on_cpu).unwrap();
-            assert_eq!(
-                found.map(|d| d.is_some()),
-                on_cpu.map(|d| d.is_some()),
-                "{id}"
-            );
+            let found = inverse_of(&shader, &off).unwrap();
+            for (point, found) in off.iter().zip(&found) {
+                let on_cpu = id.inverse(*point);
+                assert_eq!(found.is_some(), on_cpu.is_some(), "{id}: {point:?}");
+            }
             assert!(
                 found[7].is_some() && found[..6].iter().all(Option::is_none),
                 "{id}"
@@ -231,11 +228,13 @@ fn vectors_that_are_no_direction_and_points_off_the_chart_get_none() {
 #[test]
 fn batches_of_any_length_come_back_whole() {
     let dirs = directions(600_000);
-    let mut shader = GpuEvaluator::new(first_gpu(), MappingId::Cube).unwrap();
+    let shader = GpuEvaluator::new(first_gpu(), MappingId::Cube).unwrap();
     for count in [0, 1, 63, 64, 65, 262_144, 262_145, 600_000] {
-        let mut found = vec![None; count];
-        shader.forward(&dirs[..count], &mut found).unwrap();
-        assert!(found.iter().all(Option::is_some), "{count}");
+        let found = forward_of(&shader, &dirs[..count]).unwrap();
+        assert!(
+            found.len() == count && found.iter().all(Option::is_some),
+            "{count}"
+        );
         let last = found.last().map(|p| p.map(|p| p.chart));
         let on_cpu = dirs[..count]
             .last()
@@ -246,27 +245,27 @@ fn batches_of_any_length_come_back_whole() {
 
 #[test]
 fn a_shader_that_leaves_an_element_out_is_reported() {
-    let mut shader = changed(MappingId::Cube, "id.x >= arrayLength(&given)", "id.x == 5u");
-    let found = shader.forward(&directions(64), &mut vec![None; 64]);
+    let shader = changed(MappingId::Cube, "id.x >= arrayLength(&given)", "id.x == 5u");
+    let found = forward_of(&shader, &directions(64));
     assert!(found.unwrap_err().to_string().contains("element 5"));
-    let broken = GpuEvaluator::from_source(first_gpu(), MappingId::Cube, "fn f() { g(); }");
+    let broken =
+        GpuEvaluator::from_source(first_gpu(), MappingId::Cube, PRECISE, "fn f() { g(); }");
     assert!(broken.is_err());
 }
 
 /// The mapping's shader on the first adapter with every `from` of its text replaced.
 fn changed(id: MappingId, from: &str, to: &str) -> GpuEvaluator {
-    let source = GpuEvaluator::source(id);
+    let source = GpuEvaluator::source(id, PRECISE);
     assert!(source.contains(from), "{id} does not contain {from}");
     let source = source.replace(from, to);
-    GpuEvaluator::from_source(first_gpu(), id, &source).unwrap()
+    GpuEvaluator::from_source(first_gpu(), id, PRECISE, &source).unwrap()
 }
 
 #[test]
 fn a_changed_shader_is_noticed() {
     let dirs = directions(40_000);
     let noticed = |id: MappingId, from: &str, to: &str| {
-        let (faults, observed) =
-            compare(id, &mut changed(id, from, to), &dirs, &points(id, 20_000));
+        let (faults, observed) = compare(id, &changed(id, from, to), &dirs, &points(id, 20_000));
         assert!(
             !faults.is_empty() || !over_budget(id, observed).is_empty(),
             "{id}: {to} was not noticed: {observed:?}"
@@ -401,11 +400,8 @@ fn the_layout_tables_are_rusts() {
     for &id in MappingId::ALL {
         let layout = id.info().layout;
         let source = for_mapping(id, BODY);
-        let mut shader = GpuEvaluator::from_source(first_gpu(), id, &source).unwrap();
-        let mut found = vec![None; 64];
-        shader
-            .forward(&vec![Vec3::new(1.0, 0.0, 0.0); 64], &mut found)
-            .unwrap();
+        let shader = GpuEvaluator::from_source(first_gpu(), id, PRECISE, &source).unwrap();
+        let found = forward_of(&shader, &[Vec3::new(1.0, 0.0, 0.0); 64]).unwrap();
         for (i, found) in (0_u32..).zip(&found) {
             let cell = [i % 8, i / 8];
             let chart = layout.cells().iter().position(|c| c.at == cell);
@@ -422,10 +418,7 @@ fn the_layout_tables_are_rusts() {
                 );
             }
         }
-        let mut grid = [None];
-        shader
-            .inverse(&[ChartPoint::new(0, 0.5, 0.5)], &mut grid)
-            .unwrap();
+        let grid = inverse_of(&shader, &[ChartPoint::new(0, 0.5, 0.5)]).unwrap();
         assert_eq!(
             grid[0].map(|d| [d.x.to_bits(), d.y.to_bits()]),
             Some(layout.grid()),

@@ -5,8 +5,7 @@
 use std::path::Path;
 
 use sixfold::gpu::{Gpu, GpuEvaluator};
-use sixfold::mapping::{Evaluator, MappingId};
-use sixfold::math::Vec3;
+use sixfold::mapping::{DirList, Evaluator, MappingId, PointList};
 
 #[test]
 fn every_driver_of_this_machine_is_tested() {
@@ -57,13 +56,13 @@ fn no_adapter_ends_in_advice() {
 #[test]
 fn a_lost_device_ends_in_an_error() {
     let gpu = Gpu::headless().unwrap();
-    let mut shader = GpuEvaluator::new(&gpu, MappingId::Cube).unwrap();
-    let dirs = [Vec3::new(1.0, 2.0, 3.0); 64];
-    let mut found = vec![None; 64];
-    shader.forward(&dirs, &mut found).unwrap();
+    let shader = GpuEvaluator::new(&gpu, MappingId::Cube).unwrap();
+    let dirs = DirList::from_iter([[1.0, 2.0, 3.0]; 64]);
+    let mut found = PointList::zeros(64);
+    shader.forward(dirs.view(), found.view_mut()).unwrap();
     assert!(!gpu.is_lost());
     gpu.device.destroy();
-    assert!(shader.forward(&dirs, &mut found).is_err());
+    assert!(shader.forward(dirs.view(), found.view_mut()).is_err());
     assert!(gpu.is_lost() && gpu.clone().is_lost());
     assert!(GpuEvaluator::new(&gpu, MappingId::Cube).is_err());
     assert!(!Gpu::headless().unwrap().is_lost());

@@ -13,8 +13,8 @@ use std::f32::consts;
 use std::mem::{offset_of, size_of};
 
 use naga::Literal;
-use sixfold::gpu::{Program, compute, kit, optics, shader, uniforms};
-use sixfold::mapping::{Domain, MappingId, ccm};
+use sixfold::gpu::{Program, compute, forms, kit, optics, shader, uniforms};
+use sixfold::mapping::{Domain, MappingId, ShaderForm, ccm};
 use sixfold::math::{ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS};
 use sixfold::optics::Formula;
 
@@ -31,9 +31,13 @@ fn passes() -> Vec<(String, String)> {
         grid: true,
         probe: true,
         level: true,
+        ..kit::Variant::default()
     };
     for &id in MappingId::ALL {
-        passes.push((format!("evaluate {id}"), compute::GpuEvaluator::source(id)));
+        for form in id.forms() {
+            let text = compute::GpuEvaluator::source(id, form);
+            passes.push((format!("evaluate {id} {form}"), text));
+        }
         passes.push((format!("bake {id}"), kit::bake_source(id)));
         passes.push((format!("panel {id}"), kit::panel_source(id)));
         for variant in [kit::Variant::default(), every_overlay] {
@@ -45,6 +49,20 @@ fn passes() -> Vec<(String, String)> {
                 let name = format!("object {id} {variant:?} {program:?}");
                 passes.push((name, kit::object_source(id, variant, program)));
             }
+        }
+        for (form, difference) in id.forms().flat_map(|form| [(form, false), (form, true)]) {
+            let variant = kit::Variant {
+                form,
+                difference,
+                ..every_overlay
+            };
+            let name = format!("{id} {form}, difference {difference}");
+            let mirror = Program::Mirror { printed: false };
+            passes.push((format!("sky {name}"), kit::sky_source(id, variant)));
+            passes.push((
+                format!("object {name}"),
+                kit::object_source(id, variant, mirror),
+            ));
         }
         for &source in MappingId::ALL {
             let roles = [("source", source), ("target", id)];
@@ -280,10 +298,62 @@ fn the_polynomials_are_rusts() {
 }
 
 #[test]
+fn the_shorter_polynomials_are_rusts() {
+    for form in [ShaderForm::Own7, ShaderForm::Own11] {
+        let level = form.level().unwrap();
+        let text = forms::angles(form);
+        let line = |name: &str| {
+            let start = format!("fn {name}(s: f32)");
+            text.lines().find(|line| line.starts_with(&start)).unwrap()
+        };
+        let atan: Vec<f32> = level.quarters.iter().map(|c| forms::radians(*c)).collect();
+        for (name, coefficients) in [
+            ("atan_series", &atan[..]),
+            ("sin_quarter_series", level.sin),
+            ("cos_quarter_series", level.cos),
+        ] {
+            let numbers = line(name)
+                .split(['(', ')'])
+                .filter_map(|part| part.strip_suffix('f'));
+            let found: Vec<f32> = numbers.filter_map(|number| number.parse().ok()).collect();
+            let highest_first: Vec<f32> = coefficients.iter().rev().copied().collect();
+            assert_eq!(found, highest_first, "{form} {name}");
+        }
+        // t P(t²), odd, and near the arctangent.
+        let sum = |t: f32| t * atan.iter().rev().fold(0.0, |sum, c| sum * t * t + c);
+        let error = (0..=100)
+            .map(|k| 0.01 * k as f32)
+            .map(|t| (sum(t) - t.atan()).abs());
+        let error = error.fold(0.0, f32::max);
+        let most = if form == ShaderForm::Own7 {
+            8.5e-5
+        } else {
+            2e-6
+        };
+        assert!(error < most && error > 0.2 * most, "{form}: {error:e}");
+    }
+}
+
+/// The one file that may call them: a form that is measured beside the others, and not used where it is not asked for.
+const BUILT_IN_FORM: &str = "angles/built_in.wgsl";
+
+#[test]
 fn no_inverse_trigonometric_built_in_is_called() {
     for (path, text) in wgsl::files() {
         let called = wgsl::calls(&text, &INVERSE_BUILT_INS);
-        assert!(called.is_empty(), "shaders/{path} calls {called:?}");
+        if path == BUILT_IN_FORM {
+            assert_eq!(called, ["atan", "atan2"]);
+        } else {
+            assert!(called.is_empty(), "shaders/{path} calls {called:?}");
+        }
+    }
+    for form in ShaderForm::ALL {
+        let called = wgsl::calls(&forms::angles(form), &TWIN_BUILT_INS);
+        assert_eq!(
+            called.is_empty(),
+            form != ShaderForm::BuiltIn,
+            "{form}: {called:?}"
+        );
     }
     let twins = MappingId::ALL.iter().map(|id| (id.prefix(), id.wgsl()));
     for (name, text) in twins.chain([

@@ -13,8 +13,8 @@ use super::arrangement::Pane;
 use super::figures::Figure;
 use super::probe;
 use super::state::{
-    AppState, CurvesState, EyeRay, InspectorState, LossState, Overlays, PanelState, StoryState,
-    unit,
+    AppState, CurvesState, EyeRay, FormState, InspectorState, LossState, Overlays, PanelState,
+    StoryState, unit,
 };
 
 /// One change of the state.
@@ -28,6 +28,8 @@ pub enum Action {
     SetMapping(MappingId),
     /// Put a second mapping right of the divider, or take it away.
     SetCompare(Option<MappingId>),
+    /// Run the viewport's shaders in another form, or show its error.
+    SetForm(FormState),
     /// Move the divider.
     SetDivider(f32),
     /// Another mirror object.
@@ -137,6 +139,7 @@ pub fn apply(state: &mut AppState, action: Action) {
             }
         }
         Action::SetCompare(compare) => state.compare = compare.filter(|m| *m != state.mapping),
+        Action::SetForm(form) => state.form = form.sanitized(),
         Action::SetDivider(divider) if divider.is_finite() => {
             state.divider = divider.clamp(0.0, 1.0);
         }

@@ -8,11 +8,11 @@ use super::command::Command;
 use super::dialogs::Dialog;
 use super::material_panel::material_ui;
 use super::model::Model;
-use super::state::{EXPOSURE_RANGE, TEXEL_BUDGET_RANGE};
+use super::state::{EXPOSURE_RANGE, MOST_MAGNIFIED, TEXEL_BUDGET_RANGE};
 use super::turning::rotation_ui;
 use crate::gpu::ToneCurve;
 use crate::imaging::{Environment, short_name};
-use crate::mapping::MappingId;
+use crate::mapping::{MappingId, ShaderForm};
 use crate::scene::Object;
 
 /// Shows the controls, scrolled where they are too many.
@@ -30,6 +30,8 @@ pub fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
             overlays_ui(ui, model);
             heading_ui(ui, "Light");
             light_ui(ui, model);
+            heading_ui(ui, "Shader");
+            form_ui(ui, model);
             heading_ui(ui, "Panels");
             panels_ui(ui, model);
         });
@@ -111,6 +113,34 @@ fn mapping_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let [w, h] = model.map_size(state.mapping);
     let charts = state.mapping.info().chart_count();
     ui.label(RichText::new(format!("{charts} × {w}×{h} texels")).small());
+}
+
+/// In which form the shaders run, and how far it errs.
+fn form_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    let state = model.state;
+    let mut chosen = state.form;
+    let now = state.mapping.form_or_precise(chosen.form);
+    let id = |form: &ShaderForm| form.id().to_owned();
+    if let Some(form) = choose_ui(ui, "computed by", &now, state.mapping.forms(), id) {
+        chosen.form = form;
+    }
+    if now != ShaderForm::Precise {
+        ui.label(RichText::new(now.about()).small());
+    }
+    ui.checkbox(&mut chosen.difference, "its error in texels, magnified");
+    if chosen.difference {
+        let powers = (0..=MOST_MAGNIFIED.ilog2()).step_by(2);
+        let powers = std::iter::once(None).chain(powers.map(|power| Some(1 << power)));
+        let name = |factor: &Option<u32>| {
+            factor.map_or("what suits".to_owned(), |factor| format!("× {factor}"))
+        };
+        if let Some(factor) = choose_ui(ui, "magnified by", &chosen.magnification, powers, name) {
+            chosen.magnification = factor;
+        }
+    }
+    if chosen != state.form {
+        model.push(Action::SetForm(chosen));
+    }
 }
 
 fn scene_ui(ui: &mut Ui, model: &mut Model<'_>) {

@@ -6,7 +6,7 @@ use super::panel_view::rect_of_size;
 use super::state::AppState;
 use super::theme::PICTURE_BACKGROUND;
 use super::views::ViewKey;
-use crate::gpu::{Frame, Overlays, PanelFrame, ViewportFrame};
+use crate::gpu::{Frame, Overlays, PanelFrame, ViewportFrame, map_size};
 
 /// The frame that shows `state` in the views that were laid out, with their sizes in pixels. A view that was not laid out
 /// is not asked for, so that the renderer drops what only it needs.
@@ -46,6 +46,11 @@ pub fn frame_of(
                     overlays,
                     probe: state.probe,
                     show_probe: state.overlays.probe,
+                    form: state.form.form,
+                    form_difference: state.form.difference.then(|| {
+                        let rows = map_size(state.mapping, state.texel_budget)[1];
+                        state.form.factor(state.mapping, rows) as f32
+                    }),
                 });
             }
             ViewKey::Panel(mapping) => {

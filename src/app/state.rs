@@ -1,5 +1,6 @@
 //! What the window shows, as plain data: saved scenes, undo and exports are copies of it. What one pane shows is beside it.
 
+mod form;
 mod loss;
 mod optics;
 mod views;
@@ -21,6 +22,7 @@ use super::arrangement::{Arrangement, Pane};
 use super::objects::target_of;
 use super::viewport::looked_up;
 
+pub use form::FormState;
 pub use loss::{LOSS_ROWS, LossState, MOST_MAGNIFIED};
 pub use optics::{CurvesState, StoryKind, StoryState};
 pub use views::{InspectorState, Overlays, PanelState, Precision, ZOOM_RANGE};
@@ -42,6 +44,8 @@ pub struct AppState {
     pub mapping: MappingId,
     /// A second mapping right of the divider.
     pub compare: Option<MappingId>,
+    /// In which form the viewport runs the shaders.
+    pub form: FormState,
     /// Place of the divider, 0 (left border) to 1.
     pub divider: f32,
     /// The object.
@@ -157,6 +161,7 @@ impl Default for AppState {
             rotation: Rotation::NONE,
             mapping: MappingId::Ccm,
             compare: None,
+            form: FormState::default(),
             divider: 0.5,
             object: Object::Teapot,
             model: None,
@@ -244,6 +249,7 @@ impl AppState {
         self.density = self.density.clamp(DENSITY_RANGE.0, DENSITY_RANGE.1);
         self.material = self.material.sanitized();
         self.compare_material = self.compare_material.map(Material::sanitized);
+        self.form = self.form.sanitized();
         self.loss = self.loss.sanitized();
         self.probe = unit(self.probe);
         self.eye_ray = self.eye_ray.filter(|eye| {

@@ -7,14 +7,14 @@ use super::action::Action;
 use super::marks::{arrow, beyond, edged_line, edged_text, footprint};
 use super::model::Model;
 use super::probe::texel_outline;
-use super::state::EyeRay;
+use super::state::{EyeRay, Overlays};
 use super::story::{self, Arrow, dir_of, point_of};
 use super::theme;
 use super::turning::rings_ui;
 use super::views::ViewKey;
 use crate::gpu::GREAT_CIRCLE_COLORS;
-use crate::mapping::MappingId;
 use crate::mapping::cube_face::GREAT_CIRCLES;
+use crate::mapping::{MappingId, ShaderForm};
 use crate::optics::Material;
 use crate::scene::{Camera, Ray, Target};
 
@@ -188,6 +188,9 @@ fn paint_marks(ui: &Ui, model: &Model<'_>, rect: Rect) {
             edged_text(&painter, at, Align2::CENTER_TOP, &name.to_string(), color);
         }
     }
+    if model.state.form.difference && overlays != Overlays::NONE {
+        paint_difference_legend(&painter, model, rect);
+    }
     if model.surroundings.is_none() {
         let text = "Loading the environment …";
         edged_text(
@@ -197,6 +200,39 @@ fn paint_marks(ui: &Ui, model: &Model<'_>, rect: Rect) {
             text,
             Color32::WHITE,
         );
+    }
+}
+
+/// What black and white mean where the error of a form is shown, in the lower right corner.
+fn paint_difference_legend(painter: &egui::Painter, model: &Model<'_>, rect: Rect) {
+    const BAR: egui::Vec2 = vec2(96.0, 10.0);
+    const STEPS: u8 = 12;
+    let (state, mapping) = (model.state.form, model.state.mapping);
+    let form = mapping.form_or_precise(state.form);
+    let factor = state.factor(mapping, model.map_size(mapping)[1]);
+    let bar = Rect::from_min_size(rect.right_bottom() - BAR - vec2(12.0, 26.0), BAR);
+    painter.rect_filled(bar.expand(1.0), 0.0, theme::PROBE_EDGE);
+    let step = vec2(BAR.x / f32::from(STEPS), 0.0);
+    for k in 0..STEPS {
+        let corner = bar.min + step * f32::from(k);
+        let part = Rect::from_min_size(corner, vec2(step.x, BAR.y));
+        let grey = (u16::from(k) * 255 / u16::from(STEPS - 1)) as u8;
+        painter.rect_filled(part, 0.0, Color32::from_gray(grey));
+    }
+    let white = match factor {
+        1 => "1 texel".to_owned(),
+        factor => format!("1/{factor} texel"),
+    };
+    for (at, anchor, text) in [
+        (bar.left_bottom(), Align2::LEFT_TOP, "0"),
+        (bar.right_bottom(), Align2::RIGHT_TOP, &*white),
+        (
+            bar.right_top() - vec2(0.0, 4.0),
+            Align2::RIGHT_BOTTOM,
+            &*format!("{form} off {}", ShaderForm::Precise),
+        ),
+    ] {
+        edged_text(painter, at + vec2(0.0, 2.0), anchor, text, Color32::WHITE);
     }
 }
 

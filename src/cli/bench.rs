@@ -4,15 +4,16 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::CliError;
 use super::bar::Bar;
-use super::{CliError, DONE};
+use super::devices::{DeviceKind, explain, wanted};
 use crate::imaging::png_out::{PngError, encode_png};
 use crate::imaging::{Progress, atomic};
 use crate::lab::bench::{Plan, bench};
 use crate::lab::machine::Machine;
 use crate::lab::report;
 use crate::lab::scatter::scatter;
-use crate::mapping::MappingId;
+use crate::mapping::{Device, MappingId};
 
 /// Options of `sixfold bench`.
 #[derive(Debug, clap::Args)]
@@ -28,6 +29,9 @@ pub(super) struct BenchOptions {
     /// Texels along a chart's height, for the error in texels
     #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub(super) texels: u32,
+    /// Evaluators of this device only; without it those of both
+    #[arg(long, value_enum)]
+    pub(super) device: Option<DeviceKind>,
     /// Replace existing files
     #[arg(long)]
     pub(super) force: bool,
@@ -50,13 +54,19 @@ pub(super) enum LabError {
 }
 
 /// Measures, writes the files and prints the table.
-pub(super) fn run(options: &BenchOptions, out: &mut impl Write) -> Result<u8, CliError> {
+pub(super) fn run(
+    options: &BenchOptions,
+    device: &dyn Device,
+    out: &mut impl Write,
+    complaints: impl Write,
+) -> Result<u8, CliError> {
     let mut plan = if options.quick {
         Plan::quick()
     } else {
         Plan::full()
     };
     plan.texels = options.texels;
+    plan.devices = wanted(options.device);
     if !options.maps.is_empty() {
         plan.maps.clone_from(&options.maps);
     }
@@ -72,16 +82,20 @@ pub(super) fn run(options: &BenchOptions, out: &mut impl Write) -> Result<u8, Cl
     }
     let progress = Arc::new(Progress::new());
     let bar = Bar::watch(&progress);
-    let rows = bench(&plan, &progress);
+    let outcome = bench(&plan, device, &progress);
     drop(bar);
+    let status = explain(&outcome, options.device, complaints);
+    let rows = &outcome.rows;
     if let Some(folder) = &options.out {
-        let machine = serde_json::to_string_pretty(&Machine::this()).map_err(LabError::Words)?;
-        let picture = scatter(&rows);
+        let adapter = outcome.adapter.as_ref().and_then(|a| a.as_ref().ok());
+        let machine =
+            serde_json::to_string_pretty(&Machine::this(adapter)).map_err(LabError::Words)?;
+        let picture = scatter(rows);
         let [width, height] = picture.size();
         let png = encode_png(width, height, &picture.rgba(), None).map_err(LabError::Picture)?;
         let contents = [
-            report::json(&rows).map_err(LabError::Words)?.into_bytes(),
-            report::csv(&rows).map_err(LabError::Words)?.into_bytes(),
+            report::json(rows).map_err(LabError::Words)?.into_bytes(),
+            report::csv(rows).map_err(LabError::Words)?.into_bytes(),
             (machine + "\n").into_bytes(),
             picture.svg().into_bytes(),
             png,
@@ -90,9 +104,9 @@ pub(super) fn run(options: &BenchOptions, out: &mut impl Write) -> Result<u8, Cl
             write(&folder.join(name), options.force, &bytes)?;
         }
     }
-    out.write_all(report::bench_table(&rows).as_bytes())
+    out.write_all(report::bench_table(rows).as_bytes())
         .map_err(CliError::Write)?;
-    Ok(DONE)
+    Ok(status)
 }
 
 /// Makes the folder; what could not be written is refused before the long work.

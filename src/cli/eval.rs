@@ -2,16 +2,36 @@
 
 use std::borrow::Cow;
 use std::io::{self, BufReader, IsTerminal, Read, Write};
+use std::mem::take;
 
 use super::csv::{self, Line, Precision, ReadError};
 use super::plan::{EvalOptions, Plan};
 use super::{CliError, DONE, FAILED};
-use crate::mapping::{ChartPoint, Domain};
+use crate::mapping::{ChartPoint, Device, Domain, EvaluatorError};
 
 /// A direction and where it lands.
 struct Row {
     dir: [f64; 3],
     point: ChartPoint<f64>,
+}
+
+/// A line that has been read and not yet been computed.
+struct Waiting {
+    /// Its number.
+    line: u64,
+    /// Its first cells as they came.
+    cells: [String; 3],
+    /// What they say, or why they say nothing.
+    given: Result<Given, String>,
+}
+
+/// What a line asks for.
+#[derive(Clone, Copy)]
+enum Given {
+    /// The chart point of a direction.
+    Dir([f64; 3]),
+    /// The direction of a chart point.
+    Point(ChartPoint<f64>),
 }
 
 /// How many lines there were.
@@ -29,11 +49,12 @@ struct Counts {
 /// the exit status.
 pub(super) fn run(
     options: &EvalOptions,
+    device: &dyn Device,
     input: impl Read,
     out: &mut impl Write,
     mut complaints: impl Write,
 ) -> Result<u8, CliError> {
-    let plan = Plan::new(options)?;
+    let plan = Plan::new(options, device)?;
     let task = Task {
         names: if options.inverse {
             plan.columns()
@@ -78,20 +99,31 @@ impl Task {
             let names = self.names.join(",");
             let _ = writeln!(complaints, "sixfold: type lines of {names}; Ctrl-D ends");
         }
-        writeln!(out, "x,y,z,{}", self.plan.columns().join(",")).map_err(CliError::Write)?;
+        let columns = self.plan.columns().join(",");
+        writeln!(out, "x,y,z,{columns}").map_err(CliError::Write)?;
 
         let mut input = BufReader::with_capacity(1 << 16, input);
         let mut buffer = Vec::new();
         let mut header_may_come = true;
+        let mut waiting = Vec::new();
         loop {
             // Whoever waits for an answer before asking on gets it: nothing is held back while there is no input.
-            let line = csv::read_line(&mut input, &mut buffer, || out.flush());
+            let mut failed = None;
+            let line = csv::read_line(&mut input, &mut buffer, || {
+                failed = self
+                    .answer(take(&mut waiting), out, complaints, counts)
+                    .err();
+                out.flush()
+            });
+            if let Some(error) = failed {
+                return Err(error);
+            }
             let line = line.map_err(|error| match error {
                 ReadError::Input(error) => CliError::Read(error),
                 ReadError::Output(error) => CliError::Write(error),
             })?;
             let text = match line {
-                Line::End => return Ok(()),
+                Line::End => return self.answer(waiting, out, complaints, counts),
                 Line::TooLong => Cow::Borrowed(""),
                 Line::Text => String::from_utf8_lossy(&buffer),
             };
@@ -109,53 +141,93 @@ impl Task {
                 continue;
             }
             counts.rows += 1;
-            let row = if is_text {
-                self.row(&cells, count)
+            let given = if is_text {
+                self.given(&cells, count)
             } else {
                 Err(format!("longer than {} bytes", csv::LONGEST_LINE))
+            };
+            waiting.push(Waiting {
+                line: counts.lines,
+                cells: cells.map(Cow::into_owned),
+                given,
+            });
+            if waiting.len() >= self.plan.lines {
+                self.answer(take(&mut waiting), out, complaints, counts)?;
+            }
+        }
+    }
+
+    /// What the first cells of a line ask for, or why they ask for nothing.
+    fn given(&self, cells: &[Cow<'_, str>; 3], count: usize) -> Result<Given, String> {
+        if count < 3 {
+            return Err(format!("{count} of the columns {}", self.names.join(",")));
+        }
+        if !self.inverse {
+            let [x, y, z] = [0, 1, 2].map(|column| self.number(cells, column));
+            return Ok(Given::Dir([x?, y?, z?]));
+        }
+        let chart = chart_index(&cells[0])
+            .ok_or_else(|| format!("{} is no chart index: {:?}", self.names[0], cells[0]))?;
+        let [u, v] = [1, 2].map(|column| self.number(cells, column));
+        Ok(Given::Point(ChartPoint::new(chart, u?, v?)))
+    }
+
+    /// Computes the lines and writes their rows, in order.
+    fn answer(
+        &self,
+        waiting: Vec<Waiting>,
+        out: &mut impl Write,
+        complaints: &mut impl Write,
+        counts: &mut Counts,
+    ) -> Result<(), CliError> {
+        let mut rows = self.rows(&waiting)?.into_iter();
+        for line in &waiting {
+            let row = match &line.given {
+                Ok(given) => rows.next().flatten().ok_or_else(|| self.why_none(*given)),
+                Err(reason) => Err(reason.clone()),
             };
             match row {
                 Ok(row) => self.write(out, &row),
                 Err(reason) => {
                     counts.bad += 1;
-                    let _ = writeln!(complaints, "sixfold: line {}: {reason}", counts.lines);
-                    self.write_empty(out, &cells)
+                    let _ = writeln!(complaints, "sixfold: line {}: {reason}", line.line);
+                    self.write_empty(out, &line.cells)
                 }
             }
             .map_err(CliError::Write)?;
         }
+        Ok(())
     }
 
-    /// Computes a row from its first cells, or says why not.
-    fn row(&self, cells: &[Cow<'_, str>; 3], count: usize) -> Result<Row, String> {
-        if count < 3 {
-            return Err(format!("{count} of the columns {}", self.names.join(",")));
+    /// A row for each line that asks for something; `None` where nothing is found.
+    fn rows(&self, waiting: &[Waiting]) -> Result<Vec<Option<Row>>, EvaluatorError> {
+        let (mut dirs, mut points) = (Vec::new(), Vec::new());
+        for line in waiting {
+            match line.given {
+                Ok(Given::Dir(dir)) => dirs.push(dir),
+                Ok(Given::Point(point)) => points.push(point),
+                Err(_) => {}
+            }
         }
-        if !self.inverse {
-            let dir = [
-                self.number(cells, 0)?,
-                self.number(cells, 1)?,
-                self.number(cells, 2)?,
-            ];
-            let point = self.plan.forward(dir).ok_or_else(|| {
-                if dir.iter().any(|c| !c.is_finite()) {
-                    "the direction is not finite"
-                } else if dir == [0.0; 3] {
-                    "the zero vector is no direction"
-                } else {
-                    "this evaluator finds no chart for the direction (a hole)"
-                }
-            })?;
-            return Ok(Row { dir, point });
+        let row = |(dir, point)| Some(Row { dir, point });
+        if self.inverse {
+            let found = self.plan.inverse(&points)?.into_iter().zip(points);
+            return Ok(found.map(|(dir, point)| row((dir?, point))).collect());
         }
-        let chart = chart_index(&cells[0])
-            .ok_or_else(|| format!("{} is no chart index: {:?}", self.names[0], cells[0]))?;
-        let point = ChartPoint::new(chart, self.number(cells, 1)?, self.number(cells, 2)?);
-        let dir = self
-            .plan
-            .inverse(point)
-            .ok_or_else(|| self.off_the_chart())?;
-        Ok(Row { dir, point })
+        let found = dirs.iter().copied().zip(self.plan.forward(&dirs)?);
+        Ok(found.map(|(dir, point)| row((dir, point?))).collect())
+    }
+
+    /// Why a line has no result.
+    fn why_none(&self, given: Given) -> String {
+        match given {
+            Given::Dir(dir) if dir.iter().any(|c| !c.is_finite()) => {
+                "the direction is not finite".to_owned()
+            }
+            Given::Dir(dir) if dir == [0.0; 3] => "the zero vector is no direction".to_owned(),
+            Given::Dir(_) => "this evaluator finds no chart for the direction (a hole)".to_owned(),
+            Given::Point(_) => self.off_the_chart(),
+        }
     }
 
     fn number(&self, cells: &[Cow<'_, str>; 3], column: usize) -> Result<f64, String> {
@@ -187,7 +259,7 @@ impl Task {
     }
 
     /// A row whose input stands as it came and whose results are empty.
-    fn write_empty(&self, out: &mut impl Write, cells: &[Cow<'_, str>; 3]) -> io::Result<()> {
+    fn write_empty(&self, out: &mut impl Write, cells: &[String; 3]) -> io::Result<()> {
         if self.inverse {
             out.write_all(b",,,")?;
         }

@@ -5,7 +5,7 @@ use std::io::Write;
 use serde::Serialize;
 
 use super::{CliError, DONE};
-use crate::mapping::{Claims, Domain, Layout, MappingId, WeakSpot};
+use crate::mapping::{Claims, Domain, Layout, MappingId, Runs, WeakSpot};
 
 /// Options of `sixfold maps`.
 #[derive(Debug, clap::Args)]
@@ -47,6 +47,7 @@ struct Evaluator {
     id: &'static str,
     about: &'static str,
     source: &'static str,
+    device: &'static str,
     is_vector: bool,
     has_inverse: bool,
 }
@@ -57,8 +58,12 @@ fn entry(map: MappingId) -> Entry {
         id: evaluator.id,
         about: evaluator.about,
         source: evaluator.source,
-        is_vector: evaluator.is_vector,
-        has_inverse: evaluator.inverse.is_some(),
+        device: match evaluator.runs {
+            Runs::Processor(_) => "cpu",
+            Runs::Shader(_) => "gpu",
+        },
+        is_vector: evaluator.processor().is_some_and(|own| own.is_vector),
+        has_inverse: evaluator.has_inverse(),
     });
     let conventions = info.conventions.iter().map(|convention| Convention {
         id: convention.id,

@@ -7,6 +7,7 @@ mod bar;
 mod bench;
 mod convert;
 mod csv;
+mod devices;
 mod eval;
 mod figure;
 mod maps;
@@ -23,6 +24,8 @@ use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
+
+use crate::mapping::{Device, EvaluatorError};
 
 /// Everything went well.
 pub const DONE: u8 = 0;
@@ -88,6 +91,8 @@ enum CliError {
     Convert(#[from] convert::ConvertError),
     #[error(transparent)]
     Lab(#[from] bench::LabError),
+    #[error(transparent)]
+    Device(#[from] EvaluatorError),
     #[error("standard input cannot be read: {0}")]
     Read(io::Error),
     #[error("standard output cannot be written: {0}")]
@@ -96,9 +101,10 @@ enum CliError {
 
 /// Reads the command line (`args` begins with the program's name) and runs the command that it names, unless that needs
 /// more than this layer may use.
-pub fn run(args: impl IntoIterator<Item = OsString>) -> Request {
+/// `device` runs shaders; nothing is asked of it unless the command needs one.
+pub fn run(args: impl IntoIterator<Item = OsString>, device: &dyn Device) -> Request {
     match Cli::try_parse_from(args) {
-        Ok(cli) => obey(cli),
+        Ok(cli) => obey(cli, device),
         Err(error) => Request::Done(explain(&error)),
     }
 }
@@ -120,20 +126,23 @@ pub fn print(text: &str) -> io::Result<()> {
     }
 }
 
-fn obey(cli: Cli) -> Request {
+fn obey(cli: Cli, device: &dyn Device) -> Request {
     match cli.command {
         Some(Command::Maps(options)) => finish(|out| maps::run(&options, out)),
         Some(Command::Eval(options)) => {
-            finish(|out| eval::run(&options, io::stdin().lock(), out, io::stderr().lock()))
+            let (input, complaints) = (io::stdin().lock(), io::stderr().lock());
+            finish(|out| eval::run(&options, device, input, out, complaints))
         }
         Some(Command::Convert(options)) => Request::Done(status_of(
             convert::run(&options)
                 .map(|()| DONE)
                 .map_err(CliError::from),
         )),
-        Some(Command::Bench(options)) => finish(|out| bench::run(&options, out)),
+        Some(Command::Bench(options)) => {
+            finish(|out| bench::run(&options, device, out, io::stderr().lock()))
+        }
         Some(Command::Stress(options)) => {
-            finish(|out| stress::run(&options, out, io::stderr().lock()))
+            finish(|out| stress::run(&options, device, out, io::stderr().lock()))
         }
         Some(Command::Render(options)) => Request::Render(options),
         Some(Command::Figure(options)) => Request::Figure(options),

@@ -6,11 +6,12 @@ use std::sync::Arc;
 
 use super::bar::Bar;
 use super::bench::{LabError, prepare, write};
-use super::{CliError, DONE, FAILED};
+use super::devices::{DeviceKind, explain, wanted};
+use super::{CliError, FAILED};
 use crate::imaging::Progress;
 use crate::lab::report;
 use crate::lab::stress::{Plan, stress};
-use crate::mapping::MappingId;
+use crate::mapping::{Device, MappingId};
 
 /// Options of `sixfold stress`.
 #[derive(Debug, clap::Args)]
@@ -26,6 +27,9 @@ pub(super) struct StressOptions {
     /// Print every family of every evaluator, not the worst of each
     #[arg(long)]
     pub(super) all: bool,
+    /// Evaluators of this device only; without it those of both
+    #[arg(long, value_enum)]
+    pub(super) device: Option<DeviceKind>,
     /// Replace existing files
     #[arg(long)]
     pub(super) force: bool,
@@ -34,6 +38,7 @@ pub(super) struct StressOptions {
 /// Asks, writes the files, prints the table and says what is broken.
 pub(super) fn run(
     options: &StressOptions,
+    device: &dyn Device,
     out: &mut impl Write,
     mut complaints: impl Write,
 ) -> Result<u8, CliError> {
@@ -42,6 +47,7 @@ pub(super) fn run(
     } else {
         Plan::full()
     };
+    plan.devices = wanted(options.device);
     if !options.maps.is_empty() {
         plan.maps.clone_from(&options.maps);
     }
@@ -51,18 +57,19 @@ pub(super) fn run(
     }
     let progress = Arc::new(Progress::new());
     let bar = Bar::watch(&progress);
-    let rows = stress(&plan, &progress);
+    let outcome = stress(&plan, device, &progress);
     drop(bar);
+    let mut status = explain(&outcome, options.device, &mut complaints);
+    let rows = &outcome.rows;
     if let Some(folder) = &options.out {
-        let texts = [report::json(&rows), report::csv(&rows)];
+        let texts = [report::json(rows), report::csv(rows)];
         for (name, text) in files.iter().zip(texts) {
             let text = text.map_err(LabError::Words)?;
             write(&folder.join(name), options.force, text.as_bytes())?;
         }
     }
-    out.write_all(report::stress_table(&rows, options.all).as_bytes())
+    out.write_all(report::stress_table(rows, options.all).as_bytes())
         .map_err(CliError::Write)?;
-    let mut status = DONE;
     for row in rows.iter().filter(|row| row.broken) {
         status = FAILED;
         let (map, evaluator, family) = (row.mapping, row.evaluator, row.family.id());

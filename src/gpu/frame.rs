@@ -7,7 +7,7 @@ use super::program::{Paths, Program};
 use super::shared::Shared;
 use super::tone::ToneCurve;
 use crate::imaging::ball::BallPixels;
-use crate::mapping::MappingId;
+use crate::mapping::{MappingId, ShaderForm};
 use crate::math::Rotation;
 use crate::optics::Material;
 use crate::scene::trace::Traced;
@@ -98,6 +98,10 @@ pub struct ViewportFrame {
     pub probe: [f32; 3],
     /// Whether the probe is marked.
     pub show_probe: bool,
+    /// The form in which the mappings' shaders are run; the precise one where a mapping does not have it.
+    pub form: ShaderForm,
+    /// Show how far the form is from the precise one, in texels times this, on a mirror and in the sky.
+    pub form_difference: Option<f32>,
 }
 
 impl ViewportFrame {
@@ -127,16 +131,18 @@ impl ViewportFrame {
                 .filter(|_| self.show_probe)
                 .map_or([0.0; 3], |p| p.to_array()),
             show_probe: self.show_probe && probe.is_some(),
+            form_difference: self.form_difference.filter(|factor| factor.is_finite()),
             ..self
         }
     }
 
     /// What is seen left of the divider, then right of it: mapping, object, and the program that shows it.
     pub(super) fn sides(&self) -> Vec<Side<'_>> {
-        let side = |mapping, object| Side {
+        let side = |mapping: MappingId, object| Side {
             mapping,
             object,
             program: self.program(object),
+            form: mapping.form_or_precise(self.form),
         };
         let left = side(self.left, &self.object);
         let right = self.is_divided().then(|| {
@@ -152,6 +158,9 @@ impl ViewportFrame {
     }
 
     fn program(&self, object: &ObjectFrame) -> Program {
+        if self.form_difference.is_some() {
+            return Program::Mirror { printed: false };
+        }
         let is_traced = object
             .traced
             .as_ref()
@@ -185,6 +194,7 @@ pub(super) struct Side<'a> {
     pub mapping: MappingId,
     pub object: &'a ObjectFrame,
     pub program: Program,
+    pub form: ShaderForm,
 }
 
 /// One mapping's charts, unfolded.
@@ -257,6 +267,15 @@ impl Frame {
             exposure: ev.clamp(-MAX_EXPOSURE_EV, MAX_EXPOSURE_EV).exp2(),
             tone: self.tone,
         }
+    }
+
+    /// Whether a mapping is looked up as a cube.
+    pub(super) fn looks_up_cube(&self, id: MappingId) -> bool {
+        let is_cube = |viewport: &ViewportFrame| {
+            viewport.mappings().any(|shown| shown == id)
+                && id.form_or_precise(viewport.form) == ShaderForm::CubeUnit
+        };
+        self.viewport.as_ref().is_some_and(is_cube)
     }
 
     /// The mappings that need a map: the viewport's, then the panels', each once.

@@ -1,10 +1,12 @@
 //! What every pass of the renderer needs: layouts, samplers, and short ways to make things.
 
+use super::forms::{self, FormResources};
+use super::map::Map;
 use super::optics::{self, OPTICS};
 use super::program::Program;
 use super::uniforms::MOST_WAVELENGTHS;
 use super::{Gpu, Overlays, overlay, shader, tone};
-use crate::mapping::{Coverage, MappingId};
+use crate::mapping::{Coverage, MappingId, ShaderForm};
 use crate::optics::material::MOST_BOUNCES;
 
 /// What the screen gets: sRGB values in a format that does not convert them again.
@@ -20,6 +22,10 @@ const VIEWPORT: &str = concat!(
     include_str!("../../shaders/overlay.wgsl"),
     include_str!("../../shaders/viewport.wgsl"),
 );
+const CHART_LIGHT: &str = include_str!("../../shaders/form/chart_light.wgsl");
+const CUBE_LIGHT: &str = include_str!("../../shaders/form/cube_light.wgsl");
+const PLAIN: &str = include_str!("../../shaders/form/plain.wgsl");
+const DIFFERENCE: &str = include_str!("../../shaders/form/difference.wgsl");
 /// The sky's pass, after [`VIEWPORT`].
 const SKY: &str = concat!(
     include_str!("../../shaders/screen.wgsl"),
@@ -68,6 +74,10 @@ pub struct Variant {
     pub probe: bool,
     /// Some pixel may cover more than a texel: the viewport works out the level for each.
     pub level: bool,
+    /// The form of the mapping's shader.
+    pub form: ShaderForm,
+    /// Shows how far it is from the precise form instead of the light.
+    pub difference: bool,
 }
 
 impl Variant {
@@ -114,22 +124,33 @@ fn viewport_source(id: MappingId, variant: Variant, pass: &str) -> String {
         ("NEEDS_LEVEL", variant.level),
     ];
     let switches = switches.map(|(name, on)| format!("const {name} = {on};\n"));
-    show_source(id, &(switches.concat() + VIEWPORT + pass))
+    let mut text = switches.concat() + VIEWPORT;
+    text += match variant.form {
+        ShaderForm::CubeUnit => CUBE_LIGHT,
+        _ => CHART_LIGHT,
+    };
+    if variant.difference {
+        text += &forms::precise_beside(id);
+        text += DIFFERENCE;
+    } else {
+        text += PLAIN;
+    }
+    show_source(id, variant.form, &(text + pass))
 }
 
 /// The whole text of a panel's pass on a mapping.
 #[must_use]
 pub fn panel_source(id: MappingId) -> String {
-    show_source(id, PANEL)
+    show_source(id, ShaderForm::Precise, PANEL)
 }
 
-fn show_source(id: MappingId, pass: &str) -> String {
+fn show_source(id: MappingId, form: ShaderForm, pass: &str) -> String {
     let covers_sphere = !matches!(id.info().coverage, Coverage::Hemisphere(_));
     let mut text = format!("const MAP_COVERS_SPHERE = {covers_sphere};\n");
     text += &tone::wgsl_constants();
     text += &overlay::wgsl_constants();
     text += &super::map::wgsl_constants();
-    shader::for_mapping(id, &(text + pass))
+    shader::for_form(id, form, &(text + pass))
 }
 
 /// Layouts and samplers that all passes share.
@@ -144,6 +165,9 @@ pub(super) struct Kit {
     pub material: wgpu::BindGroupLayout,
     /// A picture.
     pub halve: wgpu::BindGroupLayout,
+    /// A map as a cube.
+    pub cube: wgpu::BindGroupLayout,
+    forms: FormResources,
     /// Linear in all respects; never beyond the border.
     pub map_sampler: wgpu::Sampler,
     /// The same, but around the date line.
@@ -197,16 +221,30 @@ impl Kit {
                 ],
             ),
             halve: layout("halve", &[texture_entry(0, plain)]),
+            cube: forms::cube_layout(device),
+            forms: FormResources::default(),
             map_sampler: sampler("map", wgpu::AddressMode::ClampToEdge),
             environment_sampler: sampler("environment", wgpu::AddressMode::Repeat),
             gpu,
         }
     }
 
-    /// A pass that covers its target with one triangle.
+    /// A pass that covers its target with one triangle and binds one group.
     pub fn screen_pipeline(
         &self,
         layout: &wgpu::BindGroupLayout,
+        source: &str,
+        fragment: &str,
+        format: wgpu::TextureFormat,
+    ) -> wgpu::RenderPipeline {
+        let layout = self.pipeline_layout(&[Some(layout)]);
+        self.screen_pipeline_with(&layout, source, fragment, format)
+    }
+
+    /// The same with any groups.
+    pub fn screen_pipeline_with(
+        &self,
+        layout: &wgpu::PipelineLayout,
         source: &str,
         fragment: &str,
         format: wgpu::TextureFormat,
@@ -216,7 +254,7 @@ impl Kit {
             .device
             .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(fragment),
-                layout: Some(&self.pipeline_layout(&[layout])),
+                layout: Some(layout),
                 vertex: wgpu::VertexState {
                     module: &module,
                     entry_point: Some("screen_vertex"),
@@ -246,15 +284,48 @@ impl Kit {
             })
     }
 
-    pub fn pipeline_layout(&self, layouts: &[&wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
-        let layouts: Vec<_> = layouts.iter().copied().map(Some).collect();
+    pub fn pipeline_layout(
+        &self,
+        layouts: &[Option<&wgpu::BindGroupLayout>],
+    ) -> wgpu::PipelineLayout {
         self.gpu
             .device
             .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: None,
-                bind_group_layouts: &layouts,
+                bind_group_layouts: layouts,
                 immediate_size: 0,
             })
+    }
+
+    /// The layout of the viewport's passes: what is looked up, what the object is made of, and what the form reads. One for the object
+    /// and the sky, because a group is lost where the layout of one before it changes.
+    pub fn viewport_layout(&self, form: ShaderForm) -> wgpu::PipelineLayout {
+        let of_form = self.form_layout(form);
+        let layouts = [Some(&self.lookup), Some(&self.material), of_form];
+        self.pipeline_layout(&layouts[..2 + usize::from(of_form.is_some())])
+    }
+
+    /// The layout of a sky without an object.
+    pub fn sky_layout(&self, form: ShaderForm) -> wgpu::PipelineLayout {
+        match self.form_layout(form) {
+            Some(of_form) => self.pipeline_layout(&[Some(&self.lookup), None, Some(of_form)]),
+            None => self.pipeline_layout(&[Some(&self.lookup)]),
+        }
+    }
+
+    fn form_layout(&self, form: ShaderForm) -> Option<&wgpu::BindGroupLayout> {
+        match form {
+            ShaderForm::CubeUnit => Some(&self.cube),
+            _ => self.forms.of(&self.gpu, form).map(|(layout, _)| layout),
+        }
+    }
+
+    /// What a form reads of a map, or besides it.
+    pub fn form_group<'a>(&'a self, form: ShaderForm, map: &'a Map) -> Option<&'a wgpu::BindGroup> {
+        match form {
+            ShaderForm::CubeUnit => map.cube_group(),
+            _ => self.forms.of(&self.gpu, form).map(|(_, group)| group),
+        }
     }
 
     /// A buffer for one block.

@@ -1,6 +1,7 @@
 //! A mapping's own texture: one layer for each chart, with a gutter of true neighbours around it.
 
 use super::environment::EnvironmentTexture;
+use super::forms::texture_group;
 use super::kit::{Kit, LIGHT_FORMAT, bake_source, begin_pass};
 use super::uniforms::{Bake, vec4};
 use crate::mapping::{ChartPoint, MappingId};
@@ -41,6 +42,14 @@ pub(super) struct Map {
     pub size: [u32; 2],
     /// No texel is smaller than this, in the shaders' measure.
     pub finest_rad: f32,
+    /// The charts as the faces of a cube, without gutters, for the cube sampler.
+    cube: Option<Cube>,
+}
+
+#[derive(Debug)]
+struct Cube {
+    texture: wgpu::Texture,
+    group: wgpu::BindGroup,
 }
 
 /// The smallest side of a texel in radians, in the measure of `shaders/footprint.wgsl`, when charts are one texel high:
@@ -62,36 +71,68 @@ fn finest_texel_rad(id: MappingId) -> f32 {
     (0.8 * finest) as f32
 }
 
+/// A texture with all levels of so many charts.
+fn layers(kit: &Kit, [width, height]: [u32; 2], count: u32) -> wgpu::Texture {
+    kit.gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("map"),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: count,
+        },
+        mip_level_count: MAP_LEVELS,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: LIGHT_FORMAT,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
+
 impl Map {
-    /// An empty map.
-    pub fn new(kit: &Kit, id: MappingId, size: [u32; 2]) -> Self {
+    /// An empty map, `as_cube` also as a cube.
+    pub fn new(kit: &Kit, id: MappingId, size: [u32; 2], as_cube: bool) -> Self {
         let charts = id.info().chart_count();
-        let texture = kit.gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("map"),
-            size: wgpu::Extent3d {
-                width: size[0] + 2 * GUTTER,
-                height: size[1] + 2 * GUTTER,
-                depth_or_array_layers: charts + kit.spare_layers(charts),
-            },
-            mip_level_count: MAP_LEVELS,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: LIGHT_FORMAT,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING
-                | wgpu::TextureUsages::RENDER_ATTACHMENT
-                | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+        let with_gutter = size.map(|n| n + 2 * GUTTER);
+        let texture = layers(kit, with_gutter, charts + kit.spare_layers(charts));
         let view = texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
+        });
+        let cube = (as_cube && charts == 6 && size[0] == size[1]).then(|| {
+            let texture = layers(kit, size, charts);
+            let view = texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::Cube),
+                ..Default::default()
+            });
+            let group = texture_group(&kit.gpu.device, &kit.cube, &view);
+            Cube { texture, group }
         });
         Self {
             texture,
             view,
             size,
             finest_rad: finest_texel_rad(id) / size[1] as f32,
+            cube,
         }
+    }
+
+    /// True when it is a cube, too.
+    pub fn is_cube(&self) -> bool {
+        self.cube.is_some()
+    }
+
+    /// The cube as a form reads it.
+    pub fn cube_group(&self) -> Option<&wgpu::BindGroup> {
+        self.cube.as_ref().map(|cube| &cube.group)
+    }
+
+    /// Its textures, for the count.
+    pub fn textures(&self) -> impl Iterator<Item = &wgpu::Texture> {
+        let cube = self.cube.iter().map(|cube| &cube.texture);
+        std::iter::once(&self.texture).chain(cube)
     }
 
     /// Compiles the pass that fills the maps of `id`.
@@ -111,8 +152,14 @@ impl Map {
     ) {
         let device = &kit.gpu.device;
         let charts = id.info().chart_count();
-        let targets: Vec<(u32, u32)> = (0..charts)
-            .flat_map(|chart| (0..MAP_LEVELS).map(move |level| (chart, level)))
+        let gutters = [GUTTER, 0];
+        let targets: Vec<(&wgpu::Texture, u32, u32, u32)> = self
+            .textures()
+            .zip(gutters)
+            .flat_map(|(texture, gutter)| (0..charts).map(move |chart| (texture, gutter, chart)))
+            .flat_map(|(texture, gutter, chart)| {
+                (0..MAP_LEVELS).map(move |level| (texture, gutter, chart, level))
+            })
             .collect();
 
         // One block for each target, at the offsets that the device allows.
@@ -125,12 +172,12 @@ impl Map {
         let columns = rotation
             .world_from_source()
             .map(|row| vec4(row.map(|x| x as f32), 0.0));
-        for (place, (chart, level)) in bytes.chunks_exact_mut(stride).zip(&targets) {
+        for (place, (_, gutter, chart, level)) in bytes.chunks_exact_mut(stride).zip(&targets) {
             let block = Bake {
                 chart: [
                     (self.size[0] >> level) as f32,
                     (self.size[1] >> level) as f32,
-                    (GUTTER >> level) as f32,
+                    (gutter >> level) as f32,
                     *chart as f32,
                 ],
                 environment: [texels_per_rad, last_level, 0.0, 0.0],
@@ -163,8 +210,8 @@ impl Map {
                 },
             ],
         });
-        for (i, (chart, level)) in targets.into_iter().enumerate() {
-            let target = self.texture.create_view(&wgpu::TextureViewDescriptor {
+        for (i, (texture, _, chart, level)) in targets.into_iter().enumerate() {
+            let target = texture.create_view(&wgpu::TextureViewDescriptor {
                 dimension: Some(wgpu::TextureViewDimension::D2),
                 base_array_layer: chart,
                 array_layer_count: Some(1),

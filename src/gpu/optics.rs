@@ -108,8 +108,8 @@ impl GpuOptics {
 
     /// Compiles another text in its place, so that a test can show that it notices a changed one.
     pub fn from_source(gpu: &Gpu, source: &str) -> Result<Self, GpuError> {
-        let (dispatch, [pipeline]) =
-            Dispatch::new(gpu, source, ["meet_all"], GIVEN_WORDS, FOUND_WORDS)?;
+        let dispatch = Dispatch::new(gpu, source, [GIVEN_WORDS, FOUND_WORDS], None)?;
+        let pipeline = dispatch.pipeline("meet_all")?;
         Ok(Self { dispatch, pipeline })
     }
 

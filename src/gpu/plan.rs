@@ -41,6 +41,8 @@ pub(super) struct MapKey {
     pub size: [u32; 2],
     /// How the environment is turned.
     pub rotation: Rotation,
+    /// Whether it is a cube, too.
+    pub as_cube: bool,
 }
 
 /// What the viewport's pixels depend on.
@@ -123,6 +125,7 @@ impl Plan {
                 environment,
                 size: map_size(id, frame.texel_budget),
                 rotation: frame.rotation,
+                as_cube: frame.looks_up_cube(id),
             };
             let present = drawn.maps.get(&id).copied();
             let list = if present == Some(wanted) {

@@ -397,9 +397,9 @@ impl Renderer {
         let map = self
             .maps
             .entry(id)
-            .or_insert_with(|| Map::new(kit, id, key.size));
-        if map.size != key.size {
-            *map = Map::new(kit, id, key.size);
+            .or_insert_with(|| Map::new(kit, id, key.size, key.as_cube));
+        if map.size != key.size || map.is_cube() != key.as_cube {
+            *map = Map::new(kit, id, key.size, key.as_cube);
         }
         map.bake(kit, encoder, pipeline, id, environment, key.rotation);
         true
@@ -455,7 +455,7 @@ impl Renderer {
             .environment
             .iter()
             .map(|(_, environment)| &environment.texture)
-            .chain(self.maps.values().map(|m| &m.texture))
+            .chain(self.maps.values().flat_map(Map::textures))
             .chain(self.viewport.iter().flat_map(Viewport::textures))
             .chain(self.panels.values().map(|p| &p.texture))
             .collect();

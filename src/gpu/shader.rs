@@ -6,8 +6,8 @@
 use std::f32::consts;
 use std::fmt::Write;
 
-use crate::mapping::{Domain, MappingId, ccm};
-use crate::math::{ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS};
+use super::forms;
+use crate::mapping::{Domain, MappingId, ShaderForm, ccm};
 
 /// The chart index that stands for "no direction, no chart".
 pub const NO_CHART: u32 = u32::MAX;
@@ -29,6 +29,11 @@ pub fn for_mapping(id: MappingId, body: &str) -> String {
     with_mappings(&[("map", id)], body)
 }
 
+/// The same in another form; with [`ShaderForm::CubeUnit`], `map_bent(dir: vec3f) -> vec3f` is where a cube sampler is to look.
+pub fn for_form(id: MappingId, form: ShaderForm, body: &str) -> String {
+    assembled(form, &[("map", id)], body)
+}
+
 /// A pass that works with several mappings, each under a role's name, a lower-case word such as `map` or `source`. For the
 /// role `map` it can use:
 ///
@@ -38,17 +43,26 @@ pub fn for_mapping(id: MappingId, body: &str) -> String {
 ///   in a cell or `NO_CHART`;
 /// - `MAP_ID: u32` (a `MAPPING_...` constant), `MAP_CHARTS: u32`, `MAP_IS_DISC: bool`, `MAP_GRID: vec2u` (columns, rows).
 pub fn with_mappings(roles: &[(&str, MappingId)], body: &str) -> String {
+    assembled(ShaderForm::Precise, roles, body)
+}
+
+fn assembled(form: ShaderForm, roles: &[(&str, MappingId)], body: &str) -> String {
     let mut text = constants();
     text.push_str(MATH);
+    text.push_str(&forms::angles(form));
     text.push_str(CUBE_FACE);
     let mut ids: Vec<MappingId> = roles.iter().map(|(_, id)| *id).collect();
+    if form == ShaderForm::CubeUnit {
+        ids.push(MappingId::Cube);
+    }
     ids.sort_unstable();
     ids.dedup();
     for id in ids {
         text.push_str(id.wgsl());
     }
     for (role, id) in roles {
-        text.push_str(&glue(role, *id));
+        text.push_str(forms::bent(*id, form));
+        text.push_str(&glue(role, *id, form));
     }
     text.push_str(body);
     text
@@ -59,7 +73,7 @@ pub fn id_name(id: MappingId) -> String {
     format!("MAPPING_{}", id.prefix().to_uppercase())
 }
 
-/// What stands in front of every pass: numbers that Rust knows, the polynomials, and each mapping's id.
+/// What stands in front of every pass: numbers that Rust knows, and each mapping's id.
 pub fn constants() -> String {
     let floats = [
         ("PI", consts::PI),
@@ -71,11 +85,6 @@ pub fn constants() -> String {
         ("LARGEST_FINITE", f32::MAX),
         ("CCM_HALF_EDGE_RAD", ccm::HALF_EDGE_RAD as f32),
     ];
-    let series = [
-        ("atan_series", &ATAN_COEFFICIENTS[..]),
-        ("sin_quarter_series", &SIN_QUARTER_COEFFICIENTS[..]),
-        ("cos_quarter_series", &COS_QUARTER_COEFFICIENTS[..]),
-    ];
     let mut text = format!("const NO_CHART: u32 = {NO_CHART}u;\n");
     for (name, value) in floats {
         line(&mut text, format_args!("const {name}: f32 = {value:?}f;"));
@@ -86,26 +95,19 @@ pub fn constants() -> String {
             format_args!("const {}: u32 = {place}u;", id_name(*id)),
         );
     }
-    for (name, coefficients) in series {
-        let sum = horner(coefficients, "s");
-        line(
-            &mut text,
-            format_args!("fn {name}(s: f32) -> f32 {{ return {sum}; }}"),
-        );
-    }
     text
 }
 
 /// Horner's scheme written out, lowest power first. A loop over an array would cost a memory access a term where the
 /// driver does not unroll it.
-fn horner(coefficients: &[f32], x: &str) -> String {
+pub(super) fn horner(coefficients: &[f32], x: &str) -> String {
     let mut terms = coefficients.iter().rev().map(|c| format!("({c:?}f)"));
     let highest = terms.next().unwrap_or_else(|| "0.0".to_owned());
     terms.fold(highest, |sum, c| format!("({sum} * {x} + {c})"))
 }
 
 /// What a pass calls a mapping by its role.
-fn glue(role: &str, id: MappingId) -> String {
+fn glue(role: &str, id: MappingId, form: ShaderForm) -> String {
     let info = id.info();
     let prefix = id.prefix();
     let capital = role.to_uppercase();
@@ -131,7 +133,7 @@ const {capital}_ID: u32 = {name};
 const {capital}_CHARTS: u32 = {count}u;
 const {capital}_IS_DISC: bool = {is_disc};
 const {capital}_GRID: vec2u = vec2u({columns}u, {rows}u);
-fn {role}_forward(dir: vec3f) -> ChartPoint {{ return {prefix}_forward(dir); }}
+{forward}
 fn {role}_inverse(p: ChartPoint) -> vec3f {{ return {prefix}_inverse(p); }}
 fn {role}_cell(chart: u32) -> vec2u {{
     switch chart {{
@@ -147,6 +149,7 @@ fn {role}_chart(cell: vec2u) -> u32 {{
     }}
 }}
 ",
+        forward = forms::forward(role, prefix, form),
         name = id_name(id),
         count = info.chart_count(),
         is_disc = info.domain == Domain::Disc,
@@ -154,7 +157,7 @@ fn {role}_chart(cell: vec2u) -> u32 {{
 }
 
 /// Appends a line.
-fn line(text: &mut String, line: std::fmt::Arguments<'_>) {
+pub(super) fn line(text: &mut String, line: std::fmt::Arguments<'_>) {
     // Writing to a string cannot fail.
     let _ = writeln!(text, "{line}");
 }

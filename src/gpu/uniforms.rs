@@ -31,7 +31,7 @@ pub struct View {
     pub right: [f32; 4],
     /// To the upper border, height in pixels.
     pub up: [f32; 4],
-    /// Unit direction.
+    /// Unit direction, by what differences of forms are multiplied.
     pub probe: [f32; 4],
 }
 

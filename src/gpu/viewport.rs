@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::forms::FORM_GROUP;
 use super::frame::{Body, Frame, Look, Side, ViewportFrame};
 use super::kit::{Kit, VIEW_FORMAT, Variant, object_source, sky_source};
 use super::map::Map;
@@ -194,6 +195,9 @@ impl Viewport {
             }
             pass.set_scissor_rect(start, 0, end - start, height);
             pass.set_bind_group(0, &kit.lookup_group(&self.block, &map.view), &[]);
+            if let Some(group) = kit.form_group(side.form, map) {
+                pass.set_bind_group(FORM_GROUP, group, &[]);
+            }
             // The object first: the sky is then not computed behind it.
             pass.set_bind_group(1, held.group(), &[]);
             pass.set_pipeline(object);
@@ -240,7 +244,7 @@ fn view_block(frame: &ViewportFrame, look: Look) -> View {
         forward: vec4(rays.forward.to_array(), look.tone.index() as f32),
         right: vec4(rays.right.to_array(), width),
         up: vec4(rays.up.to_array(), height),
-        probe: vec4(frame.probe, 0.0),
+        probe: vec4(frame.probe, frame.form_difference.unwrap_or(0.0)),
     }
 }
 
@@ -339,13 +343,16 @@ fn keys(frame: &ViewportFrame, maps: &BTreeMap<MappingId, Map>, samples: u32) ->
     let widest_rad = (2.0 * rays.right.length() / width).max(2.0 * rays.up.length() / height);
     let shown = Variant {
         probe: frame.show_probe,
+        difference: frame.form_difference.is_some(),
         ..Variant::new(frame.overlays)
     };
     let pair = |Side {
                     mapping: id,
                     program,
+                    form,
                     ..
                 }: Side<'_>| {
+        let shown = Variant { form, ..shown };
         let finest_rad = maps.get(&id).map_or(0.0, |map| map.finest_rad);
         let level = widest_rad > finest_rad;
         [
@@ -365,13 +372,11 @@ fn keys(frame: &ViewportFrame, maps: &BTreeMap<MappingId, Map>, samples: u32) ->
 }
 
 fn pipeline(kit: &Kit, (part, id, variant, samples): Key) -> wgpu::RenderPipeline {
-    let (source, layout) = match part {
-        Part::Object(program) => (
-            object_source(id, variant, program),
-            kit.pipeline_layout(&[&kit.lookup, &kit.material]),
-        ),
-        Part::Sky => (sky_source(id, variant), kit.pipeline_layout(&[&kit.lookup])),
+    let source = match part {
+        Part::Object(program) => object_source(id, variant, program),
+        Part::Sky => sky_source(id, variant),
     };
+    let layout = kit.viewport_layout(variant.form);
     let module = kit.module("viewport", &source);
     let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
     let vertex_layout = [Some(wgpu::VertexBufferLayout {

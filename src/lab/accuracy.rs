@@ -172,7 +172,7 @@ pub fn direction_of(map: MappingId, point: ChartPoint<f64>) -> Option<[f64; 3]> 
 }
 
 /// Side of the square that has a texel's mean solid angle, in radians.
-pub(super) fn texel_rad(map: MappingId, texels: u32) -> f64 {
+pub fn texel_rad(map: MappingId, texels: u32) -> f64 {
     let info = map.info();
     let used = match info.domain {
         Domain::Square => 1.0,

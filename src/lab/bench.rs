@@ -1,25 +1,30 @@
 //! Run time against error, of every evaluator of every mapping.
 
-use std::hint::black_box;
+mod processor;
+mod shader;
+
 use std::time::Duration;
 
 use serde::Serialize;
 
 use super::accuracy::{Errors, ForwardTruth, InverseTruth};
-use super::clock::{Clock, Timing};
+use super::clock::Clock;
+use super::devices::{Devices, Outcome};
 use super::front::on_front;
 use super::inputs::Inputs;
-use super::run::{self, Threads};
 use crate::imaging::{Progress, Stage};
-use crate::mapping::evaluator::EvaluatorInfo;
-use crate::mapping::{DirList, Dirs, MappingId, PointList, Points};
-use crate::math::Isa;
+use crate::mapping::{
+    Device, DirList, Dirs, Evaluator, EvaluatorError, EvaluatorInfo, MappingId, PointList, Points,
+    Runs,
+};
 
 /// What is measured, and how carefully.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The mappings.
     pub maps: Vec<MappingId>,
+    /// Where their evaluators run.
+    pub devices: Devices,
     /// The inputs.
     pub inputs: Vec<Inputs>,
     /// Texels along a chart's height, for the error in texels.
@@ -28,6 +33,8 @@ pub struct Plan {
     pub few: usize,
     /// Directions at a time that come from memory.
     pub many: usize,
+    /// Directions at a time on a graphics adapter.
+    pub on_adapter: usize,
     /// Directions by which errors are found.
     pub judged: usize,
     /// How times are taken.
@@ -39,10 +46,12 @@ impl Plan {
     pub fn full() -> Self {
         Self {
             maps: MappingId::ALL.to_vec(),
+            devices: Devices::Both,
             inputs: Inputs::ALL.to_vec(),
             texels: 1024,
             few: 1 << 10,
             many: 1 << 22,
+            on_adapter: 1 << 18,
             judged: 1 << 16,
             clock: Clock {
                 samples: 9,
@@ -56,6 +65,7 @@ impl Plan {
         Self {
             inputs: vec![Inputs::Random],
             many: 1 << 19,
+            on_adapter: 1 << 15,
             judged: 1 << 14,
             clock: Clock {
                 samples: 5,
@@ -98,10 +108,10 @@ pub struct Row {
     /// On what.
     pub inputs: Inputs,
     /// `cpu`, or the adapter's name.
-    pub device: &'static str,
-    /// Instructions.
+    pub device: String,
+    /// Instructions; [`SHADER`] on an adapter.
     pub isa: &'static str,
-    /// Threads.
+    /// Threads; 0 on an adapter, which counts its own.
     pub threads: usize,
     /// Directions at a time.
     pub n: usize,
@@ -131,18 +141,30 @@ pub struct Row {
     pub on_front: bool,
 }
 
-/// Nanoseconds a direction above which no memory is the limit: it brings 12 bytes and takes as many in about 1 ns.
-const HELD_UP_NS: f64 = 4.0;
+/// What stands for the instructions of a shader.
+pub const SHADER: &str = "wgsl";
+/// What stands for the processor as a device.
+pub const CPU: &str = "cpu";
 
-/// Bytes read for a direction or a chart point: three numbers. As many are written.
-const BYTES: usize = 12;
+impl Row {
+    /// Measured as evaluators are compared: with few directions at a time by one thread, or on an adapter.
+    pub fn is_comparable(&self) -> bool {
+        self.isa == SHADER || self.threads == 1 && self.ns_latency.is_some()
+    }
+}
 
-/// Runs the plan; ends early, with what there is, when the progress is cancelled.
-pub fn bench(plan: &Plan, progress: &Progress) -> Vec<Row> {
+/// Runs the plan; ends early, with what there is, when the progress is cancelled. Without an adapter shaders are left out.
+pub fn bench(plan: &Plan, device: &dyn Device, progress: &Progress) -> Outcome<Row> {
     progress.enter(Stage::Measuring);
-    let mut rows = Vec::new();
-    let total = plan.maps.len() * plan.inputs.len();
-    let mut done = 0;
+    let adapter = plan.devices.open(device);
+    let adapter_name = adapter.as_ref().and_then(|a| Some(&*a.as_ref().ok()?.name));
+    let takes_part = |evaluator: &&EvaluatorInfo| {
+        plan.devices.include(evaluator) && (adapter_name.is_some() || evaluator.form().is_none())
+    };
+    let evaluators = |map: MappingId| map.evaluators().iter().filter(takes_part);
+    let count = |map: &MappingId| evaluators(*map).count() * plan.inputs.len();
+    let total: usize = plan.maps.iter().map(count).sum();
+    let (mut rows, mut faults, mut done) = (Vec::new(), Vec::new(), 0);
     for map in &plan.maps {
         for inputs in &plan.inputs {
             let dirs = inputs.directions(*map, plan.judged.max(plan.few));
@@ -153,30 +175,47 @@ pub fn bench(plan: &Plan, progress: &Progress) -> Vec<Row> {
                 backward: InverseTruth::new(*map, Inputs::points(*map, &dirs)),
                 forward: ForwardTruth::new(*map, dirs),
             };
-            let evaluators = map.evaluators();
-            for (k, evaluator) in evaluators.iter().enumerate() {
+            for evaluator in evaluators(*map) {
                 if progress.is_cancelled() {
                     break;
                 }
-                subject.measure(evaluator, &mut rows);
-                progress.step(done * evaluators.len() + k + 1, total * evaluators.len());
+                match &evaluator.runs {
+                    Runs::Processor(processor) => {
+                        subject.measure(evaluator.id, processor, &mut rows);
+                    }
+                    Runs::Shader(form) => {
+                        let name = adapter_name.unwrap_or_default();
+                        let shader = device.shader(*map, *form);
+                        let found = shader.and_then(|shader| {
+                            subject.measure_shader(*form, &*shader, name, &mut rows)
+                        });
+                        if let Err(error) = found {
+                            faults.push(format!("{map} by {}: {error}", evaluator.id));
+                        }
+                    }
+                }
+                done += 1;
+                progress.step(done, total);
             }
-            done += 1;
         }
     }
     mark_front(&mut rows);
-    rows
+    Outcome {
+        rows,
+        adapter,
+        faults,
+    }
 }
 
 /// Marks the rows that are on the front of their circumstances.
 pub fn mark_front(rows: &mut [Row]) {
-    type Circumstances = (&'static str, Way, Inputs, &'static str, usize, usize);
+    type Circumstances = (&'static str, Way, Inputs, String, usize, usize);
     let key = |row: &Row| -> Circumstances {
         (
             row.mapping,
             row.direction,
             row.inputs,
-            row.device,
+            row.device.clone(),
             row.threads,
             row.n,
         )
@@ -211,100 +250,41 @@ struct Subject<'a> {
     backward: InverseTruth,
 }
 
-/// How an evaluator is run.
-#[derive(Clone, Copy)]
-struct Setting {
-    way: Way,
-    isa: Isa,
-    threads: Threads,
-    is_many: bool,
-}
-
 impl Subject<'_> {
-    fn measure(&self, evaluator: &EvaluatorInfo, rows: &mut Vec<Row>) {
-        let best = Isa::best();
-        let sets: Vec<Isa> = match evaluator.is_vector {
-            true => Isa::ALL.into_iter().filter(|isa| *isa <= best).collect(),
-            false => vec![Isa::Baseline],
-        };
-        for way in [Way::Forward, Way::Inverse] {
-            if way == Way::Inverse && evaluator.inverse.is_none() {
-                continue;
-            }
-            let mut errors = None;
-            for isa in &sets {
-                let setting = Setting {
-                    way,
-                    isa: *isa,
-                    threads: Threads::One,
-                    is_many: false,
-                };
-                let found = self.errors(evaluator, setting);
-                rows.push(self.row(evaluator, setting, found));
-                errors = Some((setting, found));
-            }
-            let (Some((setting, found)), Some(last)) = (errors, rows.last()) else {
-                continue;
-            };
-            // From memory, and by all threads: where the memory can hold a form up at all, and where the order of the inputs
-            // cannot matter.
-            let is_held_up = last.ns < HELD_UP_NS;
-            if evaluator.is_vector && is_held_up && self.inputs == Inputs::Random {
-                for threads in [Threads::One, Threads::All] {
-                    let setting = Setting {
-                        threads,
-                        is_many: true,
-                        ..setting
-                    };
-                    rows.push(self.row(evaluator, setting, found));
-                }
-            }
-        }
-    }
-
-    fn errors(&self, evaluator: &EvaluatorInfo, Setting { way, isa, .. }: Setting) -> Errors {
-        match (way, &evaluator.inverse) {
-            (Way::Inverse, Some(inverse)) => {
-                let points = self.backward.points();
-                let mut dirs = DirList::zeros(points.len());
-                inverse(isa, points, dirs.view_mut());
-                self.backward.errors(&dirs, self.plan.texels)
-            }
-            _ => {
+    /// Errors of an evaluator one way.
+    fn errors(&self, evaluator: &dyn Evaluator, way: Way) -> Result<Errors, EvaluatorError> {
+        let texels = self.plan.texels;
+        match way {
+            Way::Forward => {
                 let dirs = self.forward.dirs();
                 let mut points = PointList::zeros(dirs.len());
-                (evaluator.forward)(isa, dirs, points.view_mut());
-                self.forward.errors(&points, self.plan.texels)
+                evaluator.forward(dirs, points.view_mut())?;
+                Ok(self.forward.errors(&points, texels))
+            }
+            Way::Inverse => {
+                let points = self.backward.points();
+                let mut dirs = DirList::zeros(points.len());
+                evaluator.inverse(points, dirs.view_mut())?;
+                Ok(self.backward.errors(&dirs, texels))
             }
         }
     }
 
-    fn row(&self, evaluator: &EvaluatorInfo, setting: Setting, errors: Errors) -> Row {
-        let Setting {
-            way,
-            isa,
-            threads,
-            is_many,
-        } = setting;
-        let n = if is_many {
-            self.plan.many
-        } else {
-            self.plan.few
-        };
-        let (timing, copy_ratio) = self.throughput(evaluator, setting, n);
+    /// A row without its times and circumstances.
+    fn row(&self, evaluator: &'static str, direction: Way, errors: Errors) -> Row {
         Row {
             mapping: self.map.info().id,
-            evaluator: evaluator.id,
-            direction: way,
+            evaluator,
+            direction,
             inputs: self.inputs,
-            device: "cpu",
-            isa: isa.id(),
-            threads: threads.count(),
-            n,
-            ns: timing.median_ns / n as f64,
-            ns_latency: (!is_many).then(|| self.latency(evaluator, setting)),
-            spread: timing.spread,
-            copy_ratio,
+            device: CPU.to_owned(),
+            isa: "",
+            threads: 0,
+            n: 0,
+            ns: f64::NAN,
+            ns_latency: None,
+            spread: f64::NAN,
+            copy_ratio: f64::NAN,
             max_error_rad: errors.max_rad,
             rms_error_rad: errors.rms_rad,
             max_error_ulp: errors.max_ulp,
@@ -316,86 +296,22 @@ impl Subject<'_> {
         }
     }
 
-    /// Time of `n` directions at once, and its ratio to a plain copy.
-    fn throughput(&self, evaluator: &EvaluatorInfo, setting: Setting, n: usize) -> (Timing, f64) {
-        let Setting { isa, threads, .. } = setting;
-        let (clock, bytes) = (self.plan.clock, n * BYTES);
-        let on_all = threads == Threads::All;
-        match (setting.way, &evaluator.inverse) {
-            (Way::Inverse, Some(inverse)) => {
-                let points = repeated_points(self.backward.points(), n);
-                let mut dirs = DirList::zeros(points.len());
-                clock.time_beside_copy(
-                    || {
-                        run::inverse(
-                            inverse,
-                            isa,
-                            threads,
-                            black_box(points.view()),
-                            dirs.view_mut(),
-                        );
-                        black_box(&mut dirs);
-                    },
-                    bytes,
-                    on_all,
-                )
-            }
-            _ => {
-                let dirs = repeated_dirs(self.forward.dirs(), n);
-                let mut points = PointList::zeros(n);
-                let forward = &evaluator.forward;
-                clock.time_beside_copy(
-                    || {
-                        run::forward(
-                            forward,
-                            isa,
-                            threads,
-                            black_box(dirs.view()),
-                            points.view_mut(),
-                        );
-                        black_box(&mut points);
-                    },
-                    bytes,
-                    on_all,
-                )
-            }
-        }
+    /// The first `n` directions, again and again where there are fewer.
+    fn dirs(&self, n: usize) -> DirList {
+        repeated_dirs(self.forward.dirs(), n)
     }
 
-    /// Nanoseconds of a direction that waits for the one before: what it adds to the next input is zero, but nobody knows.
-    fn latency(&self, evaluator: &EvaluatorInfo, setting: Setting) -> f64 {
-        const CHAIN: usize = 64;
-        let mut dirs = repeated_dirs(self.forward.dirs(), CHAIN);
-        let mut points = repeated_points(self.backward.points(), CHAIN);
-        let (mut dir, mut point) = (DirList::zeros(1), PointList::zeros(1));
-        let nothing = black_box(0.0_f32);
-        let timing = self.plan.clock.time(|| {
-            for k in 0..CHAIN {
-                match (setting.way, &evaluator.inverse) {
-                    (Way::Inverse, Some(inverse)) => {
-                        points.u[k] += dir.x[0] * nothing;
-                        let part = points.view().part(k..k + 1);
-                        inverse(setting.isa, part, dir.view_mut());
-                    }
-                    _ => {
-                        dirs.x[k] += point.u[0] * nothing;
-                        let part = dirs.view().part(k..k + 1);
-                        (evaluator.forward)(setting.isa, part, point.view_mut());
-                    }
-                }
-            }
-        });
-        timing.median_ns / CHAIN as f64
+    /// The first `n` points.
+    fn points(&self, n: usize) -> PointList {
+        repeated_points(self.backward.points(), n)
     }
 }
 
-/// The first `n` directions, again and again where there are fewer.
 fn repeated_dirs(dirs: Dirs<'_>, n: usize) -> DirList {
     let count = dirs.len().max(1);
     (0..n).map(|k| dirs.at(k % count).to_array()).collect()
 }
 
-/// The first `n` points, again and again where there are fewer.
 fn repeated_points(points: Points<'_>, n: usize) -> PointList {
     let count = points.len().max(1);
     (0..n).map(|k| points.at(k % count)).collect()

@@ -86,7 +86,8 @@ fn at(sorted: &[f64], share: f64) -> f64 {
 }
 
 impl Timing {
-    fn of(mut samples: Vec<f64>) -> Self {
+    /// Of some samples.
+    pub(super) fn of(mut samples: Vec<f64>) -> Self {
         samples.sort_by(f64::total_cmp);
         let median_ns = at(&samples, 0.5);
         Self {

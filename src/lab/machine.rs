@@ -4,6 +4,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
 
+use crate::mapping::Adapter;
 use crate::math::Isa;
 
 /// Head of a report.
@@ -28,15 +29,15 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// This one, now.
-    pub fn this() -> Self {
+    /// This one, now, with the adapter that was measured.
+    pub fn this(adapter: Option<&Adapter>) -> Self {
         let seconds = SystemTime::now().duration_since(UNIX_EPOCH);
         Self {
             cpu: cpu_name().unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
             cores: std::thread::available_parallelism().map_or(1, usize::from),
             isa: Isa::best().id(),
-            adapter: None,
-            driver: None,
+            adapter: adapter.map(|adapter| adapter.name.clone()),
+            driver: adapter.map(|adapter| adapter.driver.clone()),
             compiler: option_env!("SIXFOLD_COMPILER").unwrap_or("unknown"),
             commit: option_env!("SIXFOLD_COMMIT").unwrap_or("unknown: no release build"),
             date: date(seconds.map_or(0, |since| since.as_secs())),

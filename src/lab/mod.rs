@@ -6,6 +6,7 @@
 pub mod accuracy;
 pub mod bench;
 pub mod clock;
+pub mod devices;
 pub mod drawing;
 pub mod front;
 pub mod inputs;

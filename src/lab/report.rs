@@ -86,8 +86,8 @@ pub fn table<const N: usize>(titles: [&str; N], words: usize, rows: &[[String; N
     text
 }
 
-/// What the terminal shows of a bench: one core, the widest instructions, few at a time, random inputs; the fastest first, a
-/// star where nothing else is as fast and as near. The files hold the rest.
+/// What the terminal shows of a bench: one core, the widest instructions, few at a time, random inputs, and the adapter; the
+/// fastest first, a star where nothing else of the same device is as fast and as near. The files hold the rest.
 pub fn bench_table(rows: &[Row]) -> String {
     const TITLES: [&str; 12] = [
         "MAP",
@@ -104,8 +104,7 @@ pub fn bench_table(rows: &[Row]) -> String {
         "TEXELS",
     ];
     let widest = |row: &&Row| {
-        row.threads == 1
-            && row.ns_latency.is_some()
+        row.is_comparable()
             && row.inputs == super::inputs::Inputs::Random
             && !rows.iter().any(|other| {
                 other.ns_latency.is_some()
@@ -122,7 +121,10 @@ pub fn bench_table(rows: &[Row]) -> String {
     // The mappings stay in their order: the sort is stable within each.
     let place = |row: &Row| rows.iter().position(|other| other.mapping == row.mapping);
     shown.sort_by(|a, b| {
-        let key = |row: &Row| (place(row), row.direction == super::bench::Way::Inverse);
+        let key = |row: &Row| {
+            let is_inverse = row.direction == super::bench::Way::Inverse;
+            (place(row), is_inverse, row.isa == super::bench::SHADER)
+        };
         key(a).cmp(&key(b)).then(a.ns.total_cmp(&b.ns))
     });
     let cells = |row: &&Row| {

@@ -1,6 +1,6 @@
 //! Error over run time, both logarithmic, a field for each mapping, with the front.
 
-use super::bench::{Row, Way};
+use super::bench::{CPU, Row, SHADER, Way};
 use super::drawing::{Colour, Drawing};
 use super::inputs::Inputs;
 
@@ -13,9 +13,11 @@ const INK: Colour = [40, 40, 40];
 const GRID: Colour = [225, 225, 225];
 const FRONT: Colour = [200, 30, 60];
 
-/// The colour of an evaluator, by the first letters of its name: own polynomials, tables, the literature's, one by one.
+/// The colour of an evaluator, by the first letters of its name: shaders, own polynomials, tables, the literature's, one by one.
 fn colour(row: &Row) -> Colour {
-    if row.evaluator.starts_with("atan-") || row.evaluator == "lanes" {
+    if row.isa == SHADER {
+        [140, 60, 170]
+    } else if row.evaluator.starts_with("atan-") || row.evaluator == "lanes" {
         [20, 90, 200]
     } else if row.evaluator.starts_with("table-") {
         [60, 150, 70]
@@ -26,13 +28,12 @@ fn colour(row: &Row) -> Colour {
     }
 }
 
-/// The picture of the rows that were measured forwards, on random inputs, by one thread, few at a time.
+/// The picture of the rows that were measured forwards, on random inputs, by one thread, few at a time, or by an adapter.
 pub fn scatter(rows: &[Row]) -> Drawing {
     let shown = |row: &&Row| {
         row.direction == Way::Forward
             && row.inputs == Inputs::Random
-            && row.threads == 1
-            && row.ns_latency.is_some()
+            && row.is_comparable()
             && row.holes == 0
             && row.ns > 0.0
             && row.max_error_rad > 0.0
@@ -165,29 +166,39 @@ fn field(
         INK,
     );
 
-    let mut front: Vec<&Row> = rows.iter().copied().filter(|row| row.on_front).collect();
-    front.sort_by(|a, b| a.ns.total_cmp(&b.ns));
-    // A step: between two of the front nothing is nearer than the faster one.
-    let mut steps = Vec::new();
-    for pair in front.windows(2) {
-        let (a, b) = (pair[0], pair[1]);
-        steps.extend([
-            place(a.ns, a.max_error_rad),
-            place(b.ns, a.max_error_rad),
-            place(b.ns, b.max_error_rad),
-        ]);
+    let front = |is_shader: bool| {
+        let mut front: Vec<&Row> = rows.to_vec();
+        front.retain(|row| row.on_front && (row.device != CPU) == is_shader);
+        front.sort_by(|a, b| a.ns.total_cmp(&b.ns));
+        front
+    };
+    // Of the processor, then of the adapter.
+    let fronts = [false, true].map(front);
+    for front in &fronts {
+        // A step: between two of the front nothing is nearer than the faster one.
+        let mut steps = Vec::new();
+        for pair in front.windows(2) {
+            let (a, b) = (pair[0], pair[1]);
+            steps.extend([
+                place(a.ns, a.max_error_rad),
+                place(b.ns, a.max_error_rad),
+                place(b.ns, b.max_error_rad),
+            ]);
+        }
+        drawing.line(&steps, 1.5, FRONT);
     }
-    drawing.line(&steps, 1.5, FRONT);
     for row in rows {
         let radius = if row.on_front { 4.0 } else { 2.5 };
         drawing.disc(place(row.ns, row.max_error_rad), radius, colour(row));
     }
-    // From the top down, each name below the one before.
-    let mut lowest = f64::NEG_INFINITY;
-    for row in front {
-        let [x, y] = place(row.ns, row.max_error_rad);
-        let top = (y - 9.0).max(lowest);
-        drawing.words(row.evaluator, [x + 7.0, top], 8.0, INK);
-        lowest = top + 10.0;
+    for front in fronts {
+        // From the top down, each name below the one before.
+        let mut lowest = f64::NEG_INFINITY;
+        for row in front {
+            let [x, y] = place(row.ns, row.max_error_rad);
+            let top = (y - 9.0).max(lowest);
+            drawing.words(row.evaluator, [x + 7.0, top], 8.0, INK);
+            lowest = top + 10.0;
+        }
     }
 }

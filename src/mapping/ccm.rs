@@ -17,7 +17,7 @@ use super::cube_face::{
     self, face_lanes, frame_lanes, from_frame, gnomonic, sign_table, sign_table_lane,
 };
 use super::{AngleLanes, DirLanes, Lane, Line, PointLanes};
-use super::{ChartPoint, Convention, Erratum, Mapping, MappingInfo, Step};
+use super::{ChartPoint, Convention, Erratum, Mapping, MappingInfo, ShaderForm, Step};
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3, atan_unit, sin_cos_eighth};
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, PI, SQRT_2};
@@ -64,7 +64,11 @@ impl Mapping for Ccm {
             why: "the root belongs inside the denominator's arcsine; printed, v does not reach 1 on the edge",
             values: |dir| Some((paper::printed_eq6(dir)?.v, paper::forward(dir)?.v)),
         }],
-        evaluators: || evaluator::with_arctangents_and::<Ccm>(seed_forms::CCM),
+        evaluators: || {
+            let mut list = evaluator::with_arctangents_and::<Ccm>(seed_forms::CCM);
+            list.push(evaluator::of_form(ShaderForm::CubeUnit));
+            list
+        },
         ..cube_face::FAMILY
     };
 

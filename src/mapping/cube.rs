@@ -8,7 +8,7 @@ use super::cube_face::{
 use super::evaluator;
 use super::{
     AngleLanes, ChartPoint, Convention, DirLanes, Lane, Line, Mapping, MappingInfo, PointLanes,
-    Step,
+    ShaderForm, Step,
 };
 use crate::math::{Real, Vec3};
 
@@ -28,7 +28,11 @@ impl Mapping for Cube {
             forward: (lower_left, lower_left),
             inverse: Some((lower_left_inverse, lower_left_inverse)),
         }],
-        evaluators: || evaluator::plain_and::<Cube>(&[]),
+        evaluators: || {
+            let mut list = evaluator::plain_and::<Cube>(&[]);
+            list.push(evaluator::of_form(ShaderForm::CubeUnit));
+            list
+        },
         ..cube_face::FAMILY
     };
 

@@ -1,6 +1,6 @@
 //! Cylindrical equal-area (Lambert): longitude to the right, height downwards. 4 pi sr per unit of chart area.
 
-use super::{ChartPoint, Claims, Mapping, MappingInfo, Step, WeakSpot, latlong};
+use super::{ChartPoint, Claims, Mapping, MappingInfo, Step, WeakSpot, evaluator, latlong};
 use crate::math::{Real, Vec3};
 use std::f64::consts::PI;
 
@@ -25,6 +25,7 @@ impl Mapping for CylindricalEqualArea {
             outside_rad: 1.5e-6,
             reason: "v is flat at the poles, and near v = 1 half of the last digit of v is worth 6e-8 rad over the angle from the pole",
         }],
+        evaluators: evaluator::shaders_with_arctangents,
         ..MappingInfo::PLAIN
     };
 

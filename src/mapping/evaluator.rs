@@ -3,8 +3,8 @@
 use std::sync::LazyLock;
 
 use super::lane_forms::{self, LaneForm};
-use super::slices::{DirList, Dirs, DirsMut, NOWHERE, PointList, Points, PointsMut};
-use super::{ChartPoint, ForwardFn, InverseFn, Mapping, MappingId};
+use super::slices::{DirList, Dirs, DirsMut, PointList, Points, PointsMut};
+use super::{ChartPoint, Device, ForwardFn, InverseFn, Mapping, MappingId, ShaderForm};
 use crate::math::approximation::{
     Arctangent, Hastings9, Hastings17, LEVELS, Lagarde, Own, Pbrt, Published, Rajan2, Rajan3,
     Rational, SineCosine, Table,
@@ -13,56 +13,25 @@ use crate::math::{Isa, Library, Real, Vec3};
 
 /// Computes a mapping on slices: one dynamic call a batch, never one a direction.
 pub trait Evaluator {
-    /// Short name.
-    fn name(&self) -> String;
-    /// Chart points of directions, `None` where a vector is no direction; `out` has the length of `dirs`.
-    fn forward(
-        &mut self,
-        dirs: &[Vec3<f32>],
-        out: &mut [Option<ChartPoint<f32>>],
-    ) -> Result<(), EvaluatorError>;
-    /// Unit directions of chart points, `None` off the chart; `out` has the length of `points`.
-    fn inverse(
-        &mut self,
-        points: &[ChartPoint<f32>],
-        out: &mut [Option<Vec3<f32>>],
-    ) -> Result<(), EvaluatorError>;
+    /// Chart points of directions, [`NOWHERE`](super::NOWHERE) where a vector is no direction; stops at the shorter of the two.
+    fn forward(&self, dirs: Dirs<'_>, points: PointsMut<'_>) -> Result<(), EvaluatorError>;
+
+    /// Unit directions of chart points, the zero vector off the chart.
+    fn inverse(&self, points: Points<'_>, dirs: DirsMut<'_>) -> Result<(), EvaluatorError>;
 }
 
 /// Why an evaluator could not run.
-#[derive(Debug, thiserror::Error)]
+#[derive(Clone, Debug, thiserror::Error)]
 pub enum EvaluatorError {
+    /// Nothing here runs shaders.
+    #[error("no shader runs here: {0}")]
+    NoDevice(String),
     /// The device behind it failed.
     #[error("the device failed: {0}")]
     Device(String),
-}
-
-/// A mapping's own f32 code on the CPU.
-#[derive(Clone, Copy, Debug)]
-pub struct Cpu(pub MappingId);
-
-impl Evaluator for Cpu {
-    fn name(&self) -> String {
-        "f32".to_owned()
-    }
-
-    fn forward(
-        &mut self,
-        dirs: &[Vec3<f32>],
-        out: &mut [Option<ChartPoint<f32>>],
-    ) -> Result<(), EvaluatorError> {
-        self.0.forward_slice(dirs, out);
-        Ok(())
-    }
-
-    fn inverse(
-        &mut self,
-        points: &[ChartPoint<f32>],
-        out: &mut [Option<Vec3<f32>>],
-    ) -> Result<(), EvaluatorError> {
-        self.0.inverse_slice(points, out);
-        Ok(())
-    }
+    /// The form has none.
+    #[error("this evaluator has no inverse")]
+    WithoutInverse,
 }
 
 /// Computes chart points of directions; stops at the shorter of the two. Takes the instructions that it may use.
@@ -70,7 +39,7 @@ pub type Forward = Box<dyn Fn(Isa, Dirs<'_>, PointsMut<'_>) + Send + Sync>;
 /// Computes unit directions of chart points; the zero vector off the chart.
 pub type Inverse = Box<dyn Fn(Isa, Points<'_>, DirsMut<'_>) + Send + Sync>;
 
-/// One way to compute a mapping on the processor.
+/// One way to compute a mapping.
 pub struct EvaluatorInfo {
     /// Name on the command line.
     pub id: &'static str,
@@ -78,6 +47,20 @@ pub struct EvaluatorInfo {
     pub about: &'static str,
     /// Where it comes from.
     pub source: &'static str,
+    /// What computes it.
+    pub runs: Runs,
+}
+
+/// What computes an evaluator.
+pub enum Runs {
+    /// The processor.
+    Processor(Processor),
+    /// A graphics adapter; see [`Device`].
+    Shader(ShaderForm),
+}
+
+/// An evaluator's functions on the processor.
+pub struct Processor {
     /// Whether it is compiled for each set of instructions: else it computes one direction after the other.
     pub is_vector: bool,
     /// Forward in f32.
@@ -87,20 +70,87 @@ pub struct EvaluatorInfo {
 }
 
 impl EvaluatorInfo {
+    /// Its functions, where the processor computes it.
+    pub const fn processor(&self) -> Option<&Processor> {
+        match &self.runs {
+            Runs::Processor(processor) => Some(processor),
+            Runs::Shader(_) => None,
+        }
+    }
+
+    /// Its form, where a shader computes it.
+    pub const fn form(&self) -> Option<ShaderForm> {
+        match &self.runs {
+            Runs::Processor(_) => None,
+            Runs::Shader(form) => Some(*form),
+        }
+    }
+
+    /// Whether it goes back from chart points.
+    pub const fn has_inverse(&self) -> bool {
+        match &self.runs {
+            Runs::Processor(processor) => processor.inverse.is_some(),
+            Runs::Shader(form) => form.has_inverse(),
+        }
+    }
+
+    /// Makes it ready to compute a mapping: a shader is compiled.
+    ///
+    /// # Errors
+    /// When it is a shader, and the device cannot run it.
+    pub fn start<'a>(
+        &'a self,
+        map: MappingId,
+        device: &dyn Device,
+    ) -> Result<Box<dyn Evaluator + 'a>, EvaluatorError> {
+        match &self.runs {
+            Runs::Processor(processor) => Ok(Box::new(processor.on(Isa::best()))),
+            Runs::Shader(form) => Ok(device.shader(map, *form)?),
+        }
+    }
+}
+
+/// A processor's functions with the instructions that they use.
+#[derive(Clone, Copy)]
+pub struct OnProcessor<'a> {
+    processor: &'a Processor,
+    isa: Isa,
+}
+
+impl Evaluator for OnProcessor<'_> {
+    fn forward(&self, dirs: Dirs<'_>, points: PointsMut<'_>) -> Result<(), EvaluatorError> {
+        (self.processor.forward)(self.isa, dirs, points);
+        Ok(())
+    }
+
+    fn inverse(&self, points: Points<'_>, dirs: DirsMut<'_>) -> Result<(), EvaluatorError> {
+        let inverse = self.processor.inverse.as_ref();
+        inverse.ok_or(EvaluatorError::WithoutInverse)?(self.isa, points, dirs);
+        Ok(())
+    }
+}
+
+impl Processor {
+    /// As an evaluator, with these instructions.
+    pub const fn on(&self, isa: Isa) -> OnProcessor<'_> {
+        OnProcessor {
+            processor: self,
+            isa,
+        }
+    }
+
     /// The chart point of one direction.
     pub fn forward_one(&self, dir: Vec3<f32>) -> Option<ChartPoint<f32>> {
         let (dirs, mut points) = (DirList::from_iter([dir.to_array()]), PointList::zeros(1));
         (self.forward)(Isa::best(), dirs.view(), points.view_mut());
-        let point = points.view().at(0);
-        (point.chart != NOWHERE).then_some(point)
+        points.view().get(0)
     }
 
     /// The direction of one chart point; `None` also where the form has no inverse.
     pub fn inverse_one(&self, point: ChartPoint<f32>) -> Option<Vec3<f32>> {
         let (points, mut dirs) = (PointList::from_iter([point]), DirList::zeros(1));
         (self.inverse.as_ref()?)(Isa::best(), points.view(), dirs.view_mut());
-        let dir = dirs.view().at(0);
-        (dir.max_abs() > 0.0).then_some(dir)
+        dirs.view().get(0)
     }
 }
 
@@ -126,7 +176,7 @@ pub const SINGLE: &str = "f32";
 pub const REFERENCE: &str = "reference";
 
 impl MappingId {
-    /// Every way to compute this mapping on the processor: the only list of them. The shared ones come first.
+    /// Every way to compute this mapping, on the processor and by shaders: the only list of them. The shared ones come first.
     pub fn evaluators(self) -> &'static [EvaluatorInfo] {
         static LISTS: LazyLock<Vec<Vec<EvaluatorInfo>>> = LazyLock::new(|| {
             let list = |map: &MappingId| {
@@ -145,6 +195,24 @@ impl MappingId {
             .iter()
             .find(|evaluator| evaluator.id == id)
     }
+
+    /// This form of the mapping's shader, or the precise one where the mapping does not have it.
+    pub fn form_or_precise(self, form: ShaderForm) -> ShaderForm {
+        self.evaluator(form.id())
+            .and_then(EvaluatorInfo::form)
+            .unwrap_or_default()
+    }
+
+    /// The forms of the mapping's shader, the nearest first.
+    pub fn forms(self) -> impl Iterator<Item = ShaderForm> {
+        let has = move |form: &ShaderForm| self.form_or_precise(*form) == *form;
+        ShaderForm::ALL.into_iter().filter(has)
+    }
+
+    /// The functions of the evaluator of this name, where the processor computes it.
+    pub fn processor(self, id: &str) -> Option<&'static Processor> {
+        self.evaluator(id)?.processor()
+    }
 }
 
 /// Those that every mapping has.
@@ -154,11 +222,13 @@ fn shared(map: MappingId) -> Vec<EvaluatorInfo> {
             id,
             about,
             source,
-            is_vector: false,
-            forward: Box::new(move |_, dirs, points| map.forward_in::<R>(dirs, points)),
-            inverse: Some(Box::new(move |_, points, dirs| {
-                map.inverse_in::<R>(points, dirs)
-            })),
+            runs: Runs::Processor(Processor {
+                is_vector: false,
+                forward: Box::new(move |_, dirs, points| map.forward_in::<R>(dirs, points)),
+                inverse: Some(Box::new(move |_, points, dirs| {
+                    map.inverse_in::<R>(points, dirs)
+                })),
+            }),
         }
     }
     vec![
@@ -186,7 +256,23 @@ fn shared(map: MappingId) -> Vec<EvaluatorInfo> {
                 "Rust's std, which calls the platform's C library",
             ],
         ),
+        of_form(ShaderForm::Precise),
     ]
+}
+
+/// A form of the mapping's shader.
+pub(super) fn of_form(form: ShaderForm) -> EvaluatorInfo {
+    EvaluatorInfo {
+        id: form.id(),
+        about: form.about(),
+        source: form.source(),
+        runs: Runs::Shader(form),
+    }
+}
+
+/// The shaders of a mapping with an arctangent, beyond the one that every mapping has.
+pub(super) fn shaders_with_arctangents() -> Vec<EvaluatorInfo> {
+    ShaderForm::OF_ANGLES.map(of_form).into()
 }
 
 /// The evaluators of a mapping without an arctangent: its form on vectors, and formulas as printed.
@@ -224,6 +310,7 @@ pub(super) fn with_arctangents_and<M: LaneForm>(seeds: &'static [SeedForm]) -> V
         list.push(of_angles::<M, _>(linear, Table::<false>::of_size(place)));
         list.push(of_angles::<M, _>(cubic, Table::<true>::of_size(place)));
     }
+    list.extend(shaders_with_arctangents());
     list.extend(seeds.iter().map(of_seed));
     list
 }
@@ -260,31 +347,35 @@ fn of_angles<M: LaneForm, A: Arctangent + SineCosine>(
     words: [&'static str; 3],
     angles: A,
 ) -> EvaluatorInfo {
-    EvaluatorInfo {
-        inverse: Some(Box::new(move |isa, points, dirs| {
+    on_lanes::<M, A>(
+        words,
+        angles,
+        Some(Box::new(move |isa, points, dirs| {
             lane_forms::inverse::<M, A>(isa, angles, points, dirs);
         })),
-        ..forward_only::<M, A>(words, angles)
-    }
+    )
 }
 
 fn of_arctangent<M: LaneForm, A: Arctangent + Published>(arctangent: A) -> EvaluatorInfo {
-    forward_only::<M, A>(words_of(arctangent), arctangent)
+    on_lanes::<M, A>(words_of(arctangent), arctangent, None)
 }
 
-fn forward_only<M: LaneForm, A: Arctangent>(
+fn on_lanes<M: LaneForm, A: Arctangent>(
     [id, about, source]: [&'static str; 3],
     arctangent: A,
+    inverse: Option<Inverse>,
 ) -> EvaluatorInfo {
     EvaluatorInfo {
         id,
         about,
         source,
-        is_vector: true,
-        forward: Box::new(move |isa, dirs, points| {
-            lane_forms::forward::<M, A>(isa, arctangent, dirs, points);
+        runs: Runs::Processor(Processor {
+            is_vector: true,
+            forward: Box::new(move |isa, dirs, points| {
+                lane_forms::forward::<M, A>(isa, arctangent, dirs, points);
+            }),
+            inverse,
         }),
-        inverse: None,
     }
 }
 
@@ -294,18 +385,20 @@ fn of_seed(seed: &'static SeedForm) -> EvaluatorInfo {
         id: seed.id,
         about: seed.about,
         source: seed.source,
-        is_vector: false,
-        forward: Box::new(move |_, dirs, mut points| {
-            for k in 0..dirs.len().min(points.len()) {
-                points.set(k, forward(dirs.at(k)));
-            }
-        }),
-        inverse: seed.inverse.map(|inverse| -> Inverse {
-            Box::new(move |_, points, mut dirs| {
-                for k in 0..points.len().min(dirs.len()) {
-                    dirs.set(k, inverse(points.at(k)).map(Vec3::to_array));
+        runs: Runs::Processor(Processor {
+            is_vector: false,
+            forward: Box::new(move |_, dirs, mut points| {
+                for k in 0..dirs.len().min(points.len()) {
+                    points.set(k, forward(dirs.at(k)));
                 }
-            })
+            }),
+            inverse: seed.inverse.map(|inverse| -> Inverse {
+                Box::new(move |_, points, mut dirs| {
+                    for k in 0..points.len().min(dirs.len()) {
+                        dirs.set(k, inverse(points.at(k)).map(Vec3::to_array));
+                    }
+                })
+            }),
         }),
     }
 }

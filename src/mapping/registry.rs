@@ -128,22 +128,6 @@ macro_rules! registry {
             pub fn parallel_lanes(self, latitudes: &AngleLanes, points: &mut PointLanes) {
                 match self { $(Self::$mapping => $module::$mapping::parallel_lanes(latitudes, points),)+ }
             }
-
-            /// [`Mapping::forward`] of a slice, with one dispatch; stops at the shorter of the two.
-            pub fn forward_slice<R: Real>(self, dirs: &[Vec3<R>], out: &mut [Option<ChartPoint<R>>]) {
-                match self {
-                    $(Self::$mapping => out.iter_mut().zip(dirs)
-                        .for_each(|(o, d)| *o = $module::$mapping::forward(*d)),)+
-                }
-            }
-
-            /// [`Mapping::inverse`] of a slice, with one dispatch; stops at the shorter of the two.
-            pub fn inverse_slice<R: Real>(self, points: &[ChartPoint<R>], out: &mut [Option<Vec3<R>>]) {
-                match self {
-                    $(Self::$mapping => out.iter_mut().zip(points)
-                        .for_each(|(o, p)| *o = $module::$mapping::inverse(*p)),)+
-                }
-            }
         }
     };
 }

@@ -103,6 +103,11 @@ impl Dirs<'_> {
     pub fn at(&self, index: usize) -> Vec3<f32> {
         Vec3::new(self.x[index], self.y[index], self.z[index])
     }
+
+    /// The same, `None` where the zero vector stands for none.
+    pub fn get(&self, index: usize) -> Option<Vec3<f32>> {
+        Some(self.at(index)).filter(|dir| dir.max_abs() > 0.0)
+    }
 }
 
 impl DirsMut<'_> {
@@ -119,6 +124,11 @@ impl Points<'_> {
     #[inline(always)]
     pub fn at(&self, index: usize) -> ChartPoint<f32> {
         ChartPoint::new(self.chart[index], self.u[index], self.v[index])
+    }
+
+    /// The same, `None` where [`NOWHERE`] stands for none.
+    pub fn get(&self, index: usize) -> Option<ChartPoint<f32>> {
+        Some(self.at(index)).filter(|point| point.chart != NOWHERE)
     }
 }
 

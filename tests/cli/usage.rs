@@ -12,8 +12,8 @@ fn wrong_usage_ends_with_2_and_one_line_that_helps() {
         ),
         (&["eval", "eac", "--convention", "grimm"], "it has: none"),
         (
-            &["eval", "ccm", "--evaluator", "wgsl"],
-            "it has: f32, reference, library, atan-5,",
+            &["eval", "ccm", "--evaluator", "abacus"],
+            "it has: f32, reference, library, wgsl, atan-5,",
         ),
         (
             &["eval", "ccm", "--evaluator", "paper-shader", "--inverse"],

@@ -1,6 +1,8 @@
 //! Input points, and one evaluator held against double precision.
 
-use sixfold::mapping::{ChartPoint, Coverage, Cpu, Domain, Evaluator, MappingId};
+use sixfold::mapping::{
+    ChartPoint, Coverage, DirList, Domain, Evaluator, EvaluatorError, MappingId, PointList,
+};
 use sixfold::math::inputs::{Random, SIGN_PATTERNS, even_directions};
 use sixfold::math::ulp::step_ulps;
 use sixfold::math::{Vec3, angle_rad};
@@ -118,10 +120,32 @@ pub fn reach_rad(id: MappingId, point: ChartPoint<f64>) -> f64 {
     reach
 }
 
+/// What an evaluator finds for directions.
+pub fn forward_of(
+    evaluator: &dyn Evaluator,
+    dirs: &[Vec3<f32>],
+) -> Result<Vec<Option<ChartPoint<f32>>>, EvaluatorError> {
+    let mut points = PointList::zeros(dirs.len());
+    let dirs: DirList = dirs.iter().map(|dir| dir.to_array()).collect();
+    evaluator.forward(dirs.view(), points.view_mut())?;
+    Ok((0..points.len()).map(|k| points.view().get(k)).collect())
+}
+
+/// What an evaluator finds for chart points.
+pub fn inverse_of(
+    evaluator: &dyn Evaluator,
+    points: &[ChartPoint<f32>],
+) -> Result<Vec<Option<Vec3<f32>>>, EvaluatorError> {
+    let mut dirs = DirList::zeros(points.len());
+    let points: PointList = points.iter().copied().collect();
+    evaluator.inverse(points.view(), dirs.view_mut())?;
+    Ok((0..dirs.len()).map(|k| dirs.view().get(k)).collect())
+}
+
 /// Everything that is wrong with an evaluator of a mapping apart from its errors' size, and its largest errors.
 pub fn compare(
     id: MappingId,
-    evaluator: &mut dyn Evaluator,
+    evaluator: &dyn Evaluator,
     dirs: &[Vec3<f32>],
     points: &[ChartPoint<f32>],
 ) -> (Vec<String>, Errors) {
@@ -133,14 +157,13 @@ pub fn compare(
 
 fn compare_forward(
     id: MappingId,
-    evaluator: &mut dyn Evaluator,
+    evaluator: &dyn Evaluator,
     dirs: &[Vec3<f32>],
     errors: &mut Errors,
 ) -> Vec<String> {
     let info = id.info();
     let mut faults = Vec::new();
-    let mut found = vec![None; dirs.len()];
-    evaluator.forward(dirs, &mut found).unwrap();
+    let found = forward_of(evaluator, dirs).unwrap();
     for (dir, found) in dirs.iter().zip(&found) {
         let on_cpu = id.forward(*dir).map(|p| p.chart);
         let Some(point) = found.filter(|p| Some(p.chart) == on_cpu) else {
@@ -172,13 +195,12 @@ fn compare_forward(
 
 fn compare_inverse(
     id: MappingId,
-    evaluator: &mut dyn Evaluator,
+    evaluator: &dyn Evaluator,
     points: &[ChartPoint<f32>],
     errors: &mut Errors,
 ) -> Vec<String> {
     let mut faults = Vec::new();
-    let mut found = vec![None; points.len()];
-    evaluator.inverse(points, &mut found).unwrap();
+    let found = inverse_of(evaluator, points).unwrap();
     for (point, found) in points.iter().zip(&found) {
         let (Some(found), Some(exact)) = (found, exact_inverse(id, point.to_f64())) else {
             faults.push(format!("{point:?}: {found:?}"));
@@ -205,17 +227,11 @@ fn is_weak(id: MappingId, dir: [f64; 3]) -> bool {
 }
 
 /// How many directions have no chart, or another than on the CPU.
-pub fn wrong_charts(
-    id: MappingId,
-    evaluator: &mut dyn Evaluator,
-    dirs: &[Vec3<f32>],
-) -> [usize; 2] {
-    let mut found = vec![None; dirs.len()];
-    let mut on_cpu = vec![None; dirs.len()];
-    evaluator.forward(dirs, &mut found).unwrap();
-    Cpu(id).forward(dirs, &mut on_cpu).unwrap();
+pub fn wrong_charts(id: MappingId, evaluator: &dyn Evaluator, dirs: &[Vec3<f32>]) -> [usize; 2] {
+    let found = forward_of(evaluator, dirs).unwrap();
+    let on_cpu = dirs.iter().map(|dir| id.forward(*dir));
     let mut counts = [0; 2];
-    for (found, on_cpu) in found.iter().zip(&on_cpu) {
+    for (found, on_cpu) in found.iter().zip(on_cpu) {
         match (found, on_cpu) {
             (Some(found), Some(on_cpu)) if found.chart == on_cpu.chart => {}
             (Some(_), _) => counts[1] += 1,

@@ -8,7 +8,7 @@ use sixfold::lab::clock::Clock;
 use sixfold::lab::inputs::Inputs;
 use sixfold::lab::report;
 use sixfold::lab::scatter::scatter;
-use sixfold::mapping::MappingId;
+use sixfold::mapping::{MappingId, NoDevice};
 use sixfold::math::Isa;
 
 fn plan() -> Plan {
@@ -26,9 +26,16 @@ fn plan() -> Plan {
     }
 }
 
+const NO_DEVICE: NoDevice = NoDevice("a test of the processor");
+
+/// The rows of the processor.
+fn measured(plan: &Plan) -> Vec<Row> {
+    bench(plan, &NO_DEVICE, &Progress::new()).rows
+}
+
 #[test]
 fn every_evaluator_is_measured_in_every_way_it_has() {
-    let rows = bench(&plan(), &Progress::new());
+    let rows = measured(&plan());
     for map in &plan().maps {
         for evaluator in map.evaluators() {
             for inputs in [Inputs::Random, Inputs::Adversarial] {
@@ -46,9 +53,10 @@ fn every_evaluator_is_measured_in_every_way_it_has() {
                         ) == (map.info().id, evaluator.id, way, inputs, isa.id())
                             && row.ns_latency.is_some()
                     };
-                    let has_way = way == Way::Forward || evaluator.inverse.is_some();
-                    let has_isa =
-                        isa <= Isa::best() && (evaluator.is_vector || isa == Isa::Baseline);
+                    let has_way = way == Way::Forward || evaluator.has_inverse();
+                    let has_isa = evaluator.processor().is_some_and(|own| {
+                        isa <= Isa::best() && (own.is_vector || isa == Isa::Baseline)
+                    });
                     let count = rows.iter().filter(of).count();
                     assert_eq!(
                         count,
@@ -132,7 +140,7 @@ fn a_slower_and_worse_one_leaves_the_front() {
     let mut small = plan();
     small.maps = vec![MappingId::Cube];
     small.inputs = vec![Inputs::Random];
-    let mut rows = bench(&small, &Progress::new());
+    let mut rows = measured(&small);
     let first = rows.iter().position(|row| row.on_front).unwrap();
     let mut better = rows[first].clone();
     better.ns *= 0.5;
@@ -152,7 +160,7 @@ fn reports_hold_every_row() {
     let mut small = plan();
     small.maps = vec![MappingId::Octahedral];
     small.inputs = vec![Inputs::Random];
-    let rows = bench(&small, &Progress::new());
+    let rows = measured(&small);
     let csv = report::csv(&rows).unwrap();
     let json = report::json(&rows).unwrap();
     let parsed: Vec<serde_json::Value> = serde_json::from_str(&json).unwrap();
@@ -177,5 +185,5 @@ fn reports_hold_every_row() {
 fn a_cancelled_run_ends_early() {
     let progress = Progress::new();
     progress.cancel();
-    assert!(bench(&plan(), &progress).is_empty());
+    assert!(bench(&plan(), &NO_DEVICE, &progress).rows.is_empty());
 }

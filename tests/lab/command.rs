@@ -19,7 +19,9 @@ fn text(bytes: &[u8]) -> &str {
 fn bench_writes_its_five_files() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("new/folder");
-    let arguments = ["bench", "--quick", "cube", "--texels", "512", "--out"];
+    let arguments = [
+        "bench", "--quick", "cube", "--device", "cpu", "--texels", "512", "--out",
+    ];
     let arguments = [&arguments[..], &[out.to_str().unwrap()]].concat();
     let run = sixfold(&arguments);
     assert!(run.status.success(), "{}", text(&run.stderr));
@@ -85,7 +87,7 @@ fn bench_writes_its_five_files() {
 fn stress_tells_what_it_saw_beside_what_is_allowed() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
-    let run = sixfold(&["stress", "--quick", "ccm", "--out", out]);
+    let run = sixfold(&["stress", "--quick", "ccm", "--device", "cpu", "--out", out]);
     assert!(run.status.success(), "{}", text(&run.stderr));
     let table = text(&run.stdout);
     let shader = table
@@ -132,7 +134,7 @@ fn stress_tells_what_it_saw_beside_what_is_allowed() {
     }
     let csv = std::fs::read_to_string(folder.path().join("stress.csv")).unwrap();
     assert_eq!(csv.lines().count(), rows.len() + 1);
-    let all = sixfold(&["stress", "--quick", "--all", "cube"]);
+    let all = sixfold(&["stress", "--quick", "--all", "--device", "cpu", "cube"]);
     let lines = text(&all.stdout).lines().count();
     assert_eq!(
         lines,

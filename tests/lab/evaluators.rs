@@ -22,7 +22,7 @@ fn every_mapping_has_what_is_to_be_compared() {
         let ids: Vec<&str> = map.evaluators().iter().map(|e| e.id).collect();
         let unique: HashSet<&str> = ids.iter().copied().collect();
         assert_eq!(unique.len(), ids.len(), "{map}: {ids:?}");
-        assert_eq!(ids[..3], ["f32", "reference", "library"]);
+        assert_eq!(ids[..4], ["f32", "reference", "library", "wgsl"]);
         for evaluator in map.evaluators() {
             assert!(!evaluator.about.is_empty() && !evaluator.source.is_empty());
             assert!(std::ptr::eq(
@@ -57,7 +57,7 @@ fn every_mapping_has_what_is_to_be_compared() {
             "table-64-cubic",
             "table-4096-cubic",
         ] {
-            assert!(map.evaluator(id).is_some_and(|e| e.is_vector), "{map} {id}");
+            assert!(map.processor(id).is_some_and(|e| e.is_vector), "{map} {id}");
         }
     }
     for map in [
@@ -67,7 +67,7 @@ fn every_mapping_has_what_is_to_be_compared() {
         MappingId::Sphere,
     ] {
         assert!(
-            map.evaluator("lanes")
+            map.processor("lanes")
                 .is_some_and(|e| e.is_vector && e.inverse.is_some())
         );
     }
@@ -100,12 +100,16 @@ fn sets() -> impl Iterator<Item = Isa> {
 fn instructions_make_no_difference_beyond_the_budget() {
     for map in MappingId::ALL {
         let dirs = directions(*map);
-        for evaluator in map.evaluators().iter().filter(|e| e.is_vector) {
+        let processors = map
+            .evaluators()
+            .iter()
+            .filter_map(|e| Some((e, e.processor()?)));
+        for (evaluator, processor) in processors.filter(|(_, own)| own.is_vector) {
             let budget = allowed(*map, evaluator.id);
             let found: Vec<PointList> = sets()
                 .map(|isa| {
                     let mut points = PointList::zeros(dirs.len());
-                    (evaluator.forward)(isa, dirs.view(), points.view_mut());
+                    (processor.forward)(isa, dirs.view(), points.view_mut());
                     points
                 })
                 .collect();
@@ -143,11 +147,14 @@ fn one_by_one_and_all_together_are_the_same() {
     for map in [MappingId::Ccm, MappingId::Sphere, MappingId::Matcap] {
         let dirs = directions(map);
         for evaluator in map.evaluators() {
+            let Some(processor) = evaluator.processor() else {
+                continue;
+            };
             let mut points = PointList::zeros(dirs.len());
-            (evaluator.forward)(Isa::best(), dirs.view(), points.view_mut());
+            (processor.forward)(Isa::best(), dirs.view(), points.view_mut());
             for k in (0..dirs.len()).step_by(37) {
                 let together = points.view().at(k);
-                let alone = evaluator.forward_one(dirs.view().at(k));
+                let alone = processor.forward_one(dirs.view().at(k));
                 let alone = alone.unwrap_or(ChartPoint::new(NOWHERE, 0.0, 0.0));
                 let bits = |p: ChartPoint<f32>| (p.chart, p.u.to_bits(), p.v.to_bits());
                 assert_eq!(bits(alone), bits(together), "{map} {} {k}", evaluator.id);
@@ -168,12 +175,16 @@ fn points_off_the_chart_have_no_direction() {
         if info.domain == sixfold::mapping::Domain::Disc {
             off.extend([(0, 0.0, 0.0), (0, 0.95, 0.9)]);
         }
-        for evaluator in map.evaluators().iter().filter(|e| e.inverse.is_some()) {
+        let processors = map
+            .evaluators()
+            .iter()
+            .filter_map(|e| Some((e, e.processor()?)));
+        for (evaluator, processor) in processors.filter(|(_, own)| own.inverse.is_some()) {
             for (chart, u, v) in &off {
-                let found = evaluator.inverse_one(ChartPoint::new(*chart, *u, *v));
+                let found = processor.inverse_one(ChartPoint::new(*chart, *u, *v));
                 assert!(found.is_none(), "{map} {} {chart} {u} {v}", evaluator.id);
             }
-            let middle = evaluator
+            let middle = processor
                 .inverse_one(ChartPoint::new(0, 0.5, 0.625))
                 .unwrap();
             let exact = map.inverse(ChartPoint::new(0, 0.5, 0.625)).unwrap();

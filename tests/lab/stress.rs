@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use sixfold::imaging::Progress;
 use sixfold::lab::stress::{Family, MEASURES, Plan, Row, allowed, ask, expectations, stress};
-use sixfold::mapping::evaluator::EvaluatorInfo;
-use sixfold::mapping::{ChartPoint, MappingId, NOWHERE};
+use sixfold::mapping::{ChartPoint, EvaluatorInfo, MappingId, NOWHERE, NoDevice, Processor, Runs};
 use sixfold::math::Vec3;
 
 #[test]
@@ -14,11 +13,17 @@ fn every_promise_is_kept_and_no_budget_is_idle() {
         effort: 6_000,
         ..Plan::quick()
     };
-    let rows = stress(&plan, &Progress::new());
-    let evaluators: usize = MappingId::ALL
-        .iter()
-        .map(|map| map.evaluators().len())
-        .sum();
+    let rows = stress(
+        &plan,
+        &NoDevice("a test of the processor"),
+        &Progress::new(),
+    )
+    .rows;
+    let of_processor = |map: &MappingId| {
+        let evaluators = map.evaluators().iter();
+        evaluators.filter(|e| e.processor().is_some()).count()
+    };
+    let evaluators: usize = MappingId::ALL.iter().map(of_processor).sum();
     assert_eq!(rows.len(), evaluators * Family::ALL.len());
     let broken: Vec<String> = rows
         .iter()
@@ -61,7 +66,7 @@ fn every_promise_is_kept_and_no_budget_is_idle() {
 /// The row of one evaluator of the continuous cube map.
 fn ccm(evaluator: &str, family: Family) -> Row {
     let evaluator = MappingId::Ccm.evaluator(evaluator).unwrap();
-    ask(MappingId::Ccm, evaluator, family, 20_000)
+    ask(MappingId::Ccm, evaluator, family, 20_000).unwrap()
 }
 
 #[test]
@@ -72,7 +77,7 @@ fn the_papers_findings_are_reproduced() {
     assert_eq!(ccm("atan-17", Family::EdgeMiddles).observed.holes, 0);
     // Holes near the corners from fused products, at the errata's smallest example too.
     assert!(ccm("fused-shader", Family::Ties).observed.holes > 0);
-    let fused = MappingId::Ccm.evaluator("fused-shader").unwrap();
+    let fused = MappingId::Ccm.processor("fused-shader").unwrap();
     let corner = f32::from_bits(0x3f80_0001);
     assert!(
         fused
@@ -80,7 +85,7 @@ fn the_papers_findings_are_reproduced() {
             .is_none()
     );
     // Eq. 6 misses by up to 0.224 of a face.
-    let printed = MappingId::Ccm.evaluator("printed-eq6").unwrap();
+    let printed = MappingId::Ccm.processor("printed-eq6").unwrap();
     let [x, y, z] = [0.999_999, 1.0, 0.999_999_9];
     let wrong = printed.forward_one(Vec3::new(x, y, z)).unwrap();
     let right = MappingId::Ccm.forward(Vec3::new(x, y, z)).unwrap();
@@ -89,7 +94,7 @@ fn the_papers_findings_are_reproduced() {
         "{wrong:?} {right:?}"
     );
     // The arccosine of a latitude is 0 within 2.4e-4 rad of a pole, and a little farther by the roundings of the length.
-    let textbook = MappingId::Latlong.evaluator("textbook").unwrap();
+    let textbook = MappingId::Latlong.processor("textbook").unwrap();
     let lost = (1..400)
         .map(|k| 1e-6 * f64::from(k))
         .take_while(|angle| {
@@ -99,7 +104,7 @@ fn the_papers_findings_are_reproduced() {
         .last()
         .unwrap();
     assert!((2.4e-4..3.5e-4).contains(&lost), "{lost}");
-    let own = MappingId::Latlong.evaluator("atan-17").unwrap();
+    let own = MappingId::Latlong.processor("atan-17").unwrap();
     assert!(own.forward_one(Vec3::new(1e-6, 1.0, 0.0)).unwrap().v > 0.0);
     // The sphere map's rim, as printed and simplified.
     let sphere = |id: &str, family: Family| {
@@ -109,6 +114,7 @@ fn the_papers_findings_are_reproduced() {
             family,
             20_000,
         )
+        .unwrap()
         .observed
     };
     assert!(sphere("textbook", Family::Ties).not_finite > 0);
@@ -124,15 +130,17 @@ fn spoilt(id: &'static str, spoil: fn(usize, ChartPoint<f32>) -> ChartPoint<f32>
         id,
         about: "broken on purpose",
         source: "this test",
-        is_vector: false,
-        forward: Box::new(move |_, dirs, mut points| {
-            for k in 0..dirs.len() {
-                let point = MappingId::Ccm.forward(dirs.at(k));
-                let point = point.unwrap_or(ChartPoint::new(NOWHERE, 0.0, 0.0));
-                points.set(k, Some(spoil(k, point)));
-            }
+        runs: Runs::Processor(Processor {
+            is_vector: false,
+            forward: Box::new(move |_, dirs, mut points| {
+                for k in 0..dirs.len() {
+                    let point = MappingId::Ccm.forward(dirs.at(k));
+                    let point = point.unwrap_or(ChartPoint::new(NOWHERE, 0.0, 0.0));
+                    points.set(k, Some(spoil(k, point)));
+                }
+            }),
+            inverse: None,
         }),
-        inverse: None,
     }
 }
 
@@ -188,7 +196,7 @@ fn each_measure_notices_what_is_broken() {
         }),
     ];
     for (measure, family, spoil) in controls {
-        let row = ask(MappingId::Ccm, &spoilt("f32", spoil), family, 6_000);
+        let row = ask(MappingId::Ccm, &spoilt("f32", spoil), family, 6_000).unwrap();
         let fault = row.fault.unwrap_or_default();
         assert!(
             row.broken && fault.contains(measure),
@@ -200,18 +208,20 @@ fn each_measure_notices_what_is_broken() {
         &spoilt("f32", |_, p| p),
         Family::Uniform,
         6_000,
-    );
+    )
+    .unwrap();
     assert!(!sound.broken, "{:?}", sound.fault);
 }
 
 #[test]
 fn a_known_fault_that_is_gone_is_reported() {
     let mended = spoilt("paper-shader", |_, p| p);
-    let row = ask(MappingId::Ccm, &mended, Family::EdgeMiddles, 6_000);
+    let row = ask(MappingId::Ccm, &mended, Family::EdgeMiddles, 6_000).unwrap();
     assert!(row.broken && row.fault.unwrap().contains("expected to fail"));
     assert!(row.expected_fault.unwrap().contains("ceil"));
     // Where it need not show, its absence is no news.
-    assert!(!ask(MappingId::Ccm, &mended, Family::Uniform, 6_000).broken);
+    let elsewhere = ask(MappingId::Ccm, &mended, Family::Uniform, 6_000);
+    assert!(!elsewhere.unwrap().broken);
 }
 
 #[test]
@@ -219,7 +229,7 @@ fn small_directions_keep_their_digits() {
     // Found by the full test: z² vanished beside a y of 2^-60, and with it the colatitude of 2.7e-5 rad.
     let dir = [0x8e89_4a8e, 0x218c_171a, 0x99f3_75f5].map(f32::from_bits);
     for map in [MappingId::Latlong, MappingId::OctahedralEqualArea] {
-        let evaluator = map.evaluator("atan-17").unwrap();
+        let evaluator = map.processor("atan-17").unwrap();
         let point = evaluator.forward_one(Vec3::from(dir)).unwrap();
         let back = map.inverse(point.to_f64()).unwrap();
         let apart =
@@ -239,7 +249,8 @@ fn expectations_are_of_evaluators_that_there_are() {
                 seen += 1;
             }
             // Only the literature's forms are excused.
-            let is_own = evaluator.source == "own" || evaluator.is_vector;
+            let is_vector = evaluator.processor().is_some_and(|own| own.is_vector);
+            let is_own = evaluator.source == "own" || is_vector;
             assert!(!is_own || expectations(*map, evaluator.id).next().is_none());
             assert!(allowed(*map, evaluator.id).holes == 0);
         }
@@ -256,6 +267,6 @@ fn the_worst_input_is_told_in_bits() {
         .map(|bits| f32::from_bits(u32::from_str_radix(&bits[2..], 16).unwrap()))
         .collect();
     let dir = Vec3::new(dir[0], dir[1], dir[2]);
-    let shader = MappingId::Ccm.evaluator("paper-shader").unwrap();
+    let shader = MappingId::Ccm.processor("paper-shader").unwrap();
     assert!(shader.forward_one(dir).is_none(), "{dir:?}");
 }

@@ -228,7 +228,7 @@ fn u_and_v_follow_from_s_and_t_by_six_lines() {
 
 #[test]
 fn the_papers_shader_still_has_its_holes_and_is_right_elsewhere() {
-    let evaluator = MappingId::Ccm.evaluator("paper-shader").unwrap();
+    let evaluator = MappingId::Ccm.processor("paper-shader").unwrap();
     let shader = |dir| evaluator.forward_one(dir);
     let (mut holes, mut beyond, mut error) = (0, 0.0_f32, 0.0_f64);
     for dir in directions::<f32>(52, 400_000) {

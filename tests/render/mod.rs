@@ -6,7 +6,7 @@ use sixfold::gpu::{
     Body, EnvironmentSource, Frame, Gpu, ObjectFrame, Overlays, PanelFrame, Renderer, RgbaPixels,
     Shared, ToneCurve, ViewportFrame,
 };
-use sixfold::mapping::{ChartPoint, Coverage, MappingId};
+use sixfold::mapping::{ChartPoint, Coverage, MappingId, ShaderForm};
 use sixfold::math::{Rotation, Vec3};
 use sixfold::scene::{Camera, Object, Target};
 
@@ -79,6 +79,8 @@ pub fn viewport(left: MappingId) -> ViewportFrame {
         overlays: Overlays::default(),
         probe: [0.0, 0.0, 1.0],
         show_probe: false,
+        form: ShaderForm::Precise,
+        form_difference: None,
     }
 }
 

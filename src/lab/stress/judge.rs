@@ -4,8 +4,11 @@ use super::budgets::{self, Expectation};
 use super::families::{Family, walk_length};
 use super::{MEASURES, Measures, Row};
 use crate::lab::accuracy::{direction_of, texel_rad};
-use crate::mapping::evaluator::{EvaluatorInfo, SINGLE};
-use crate::mapping::{ChartPoint, Coverage, DirList, Domain, MappingId, NOWHERE, PointList};
+use crate::mapping::evaluator::SINGLE;
+use crate::mapping::{
+    ChartPoint, Coverage, DirList, Domain, Evaluator, EvaluatorError, EvaluatorInfo, MappingId,
+    NOWHERE, PointList,
+};
 use crate::math::{Isa, Vec3, angle_rad};
 
 /// Texels along a chart's height, for jumps across seams.
@@ -19,6 +22,17 @@ pub(super) struct Subject {
     dirs: DirList,
     /// The exact chart, and whether it is a tie; `None` for what is no direction.
     exact: Vec<Option<(u32, bool)>>,
+}
+
+/// Who is asked.
+#[derive(Clone, Copy)]
+pub(super) struct Asked<'a> {
+    /// The evaluator.
+    pub info: &'a EvaluatorInfo,
+    /// What computes it.
+    pub computed: &'a dyn Evaluator,
+    /// On which device.
+    pub device: &'a str,
 }
 
 impl Subject {
@@ -53,19 +67,26 @@ impl Subject {
     }
 
     /// Runs the evaluator and judges what comes out.
-    pub fn row(&self, evaluator: &EvaluatorInfo) -> Row {
-        let (dirs, isa) = (self.dirs.view(), Isa::best());
+    pub fn row(&self, asked: Asked<'_>) -> Result<Row, EvaluatorError> {
+        let dirs = self.dirs.view();
         let mut points = PointList::zeros(dirs.len());
-        (evaluator.forward)(isa, dirs, points.view_mut());
+        asked.computed.forward(dirs, points.view_mut())?;
         let mut back = DirList::zeros(dirs.len());
-        // A form without an inverse is read by the one that is used when none is asked for.
-        let usual = || self.map.evaluator(SINGLE)?.inverse.as_ref();
-        if let Some(inverse) = evaluator.inverse.as_ref().or_else(usual) {
-            inverse(isa, points.view(), back.view_mut());
+        if asked.info.has_inverse() {
+            asked.computed.inverse(points.view(), back.view_mut())?;
+        } else if let Some(usual) = self.map.processor(SINGLE) {
+            // A form without an inverse is read by the one that is used when none is asked for.
+            usual
+                .on(Isa::best())
+                .inverse(points.view(), back.view_mut())?;
         }
+        // A shader may take what is below the normal numbers for zero, and then says so everywhere.
+        let is_none =
+            |k: usize| asked.info.form().is_some() && dirs.at(k).max_abs() < f32::MIN_POSITIVE;
         let mut seen = Seen::default();
         for (k, exact) in self.exact.iter().enumerate() {
-            self.see(k, *exact, points.view().at(k), back.view().at(k), &mut seen);
+            let exact = exact.filter(|_| !is_none(k));
+            self.see(k, exact, points.view().at(k), back.view().at(k), &mut seen);
         }
         if self.family == Family::Walks {
             for start in (0..dirs.len()).step_by(walk_length(self.effort)) {
@@ -74,7 +95,7 @@ impl Subject {
                 seen.walk(self.map, &walk);
             }
         }
-        self.judged(evaluator, &seen)
+        Ok(self.judged(asked, &seen))
     }
 
     /// Takes in one direction's chart point and what comes back from it.
@@ -128,7 +149,8 @@ impl Subject {
         seen.breaks(k, is_wrong || is_out);
     }
 
-    fn judged(&self, evaluator: &EvaluatorInfo, seen: &Seen) -> Row {
+    fn judged(&self, asked: Asked<'_>, seen: &Seen) -> Row {
+        let evaluator = asked.info;
         let (map, family) = (self.map, self.family);
         let allowed = budgets::allowed(map, evaluator.id);
         let expected: Vec<&Expectation> = budgets::expectations(map, evaluator.id).collect();
@@ -160,7 +182,7 @@ impl Subject {
         Row {
             mapping: map.info().id,
             evaluator: evaluator.id,
-            device: "cpu",
+            device: asked.device.to_owned(),
             family,
             n: self.dirs.len(),
             observed: seen.measures,

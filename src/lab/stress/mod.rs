@@ -12,10 +12,12 @@ use serde::Serialize;
 pub use budgets::{Expectation, allowed, expectations};
 pub use families::Family;
 
+use super::bench::CPU;
+use super::devices::{Devices, Outcome};
 use crate::imaging::{Progress, Stage};
-use crate::mapping::MappingId;
-use crate::mapping::evaluator::EvaluatorInfo;
-use judge::Subject;
+use crate::mapping::{Device, Evaluator, EvaluatorError, EvaluatorInfo, MappingId};
+use crate::math::Isa;
+use judge::{Asked, Subject};
 
 /// What is asked of an evaluator on a family of inputs; in a row of a report beside what is allowed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -74,7 +76,7 @@ pub struct Row {
     /// Id of the evaluator.
     pub evaluator: &'static str,
     /// `cpu`, or the adapter's name.
-    pub device: &'static str,
+    pub device: String,
     /// The inputs.
     pub family: Family,
     /// How many of them the mapping covers.
@@ -99,6 +101,8 @@ pub struct Row {
 pub struct Plan {
     /// The mappings.
     pub maps: Vec<MappingId>,
+    /// Where their evaluators run.
+    pub devices: Devices,
     /// Inputs of each family, where they can be counted.
     pub effort: usize,
 }
@@ -108,6 +112,7 @@ impl Plan {
     pub fn full() -> Self {
         Self {
             maps: MappingId::ALL.to_vec(),
+            devices: Devices::Both,
             effort: 300_000,
         }
     }
@@ -121,34 +126,114 @@ impl Plan {
     }
 }
 
-/// Asks one evaluator, in the list or not, on one family.
-pub fn ask(map: MappingId, evaluator: &EvaluatorInfo, family: Family, effort: usize) -> Row {
-    Subject::new(map, family, &family.inputs(effort), effort).row(evaluator)
+/// Asks one evaluator of the processor, in the list or not, on one family.
+///
+/// # Errors
+/// When it is a shader.
+pub fn ask(
+    map: MappingId,
+    evaluator: &EvaluatorInfo,
+    family: Family,
+    effort: usize,
+) -> Result<Row, EvaluatorError> {
+    let Some(processor) = evaluator.processor() else {
+        return Err(EvaluatorError::NoDevice(format!(
+            "`{}` is one",
+            evaluator.id
+        )));
+    };
+    ask_of(
+        map,
+        evaluator,
+        &processor.on(Isa::best()),
+        CPU,
+        family,
+        effort,
+    )
 }
 
-/// Runs the plan on all cores; ends early, with what there is, when the progress is cancelled.
-pub fn stress(plan: &Plan, progress: &Progress) -> Vec<Row> {
+/// Asks what computes an evaluator on a device.
+///
+/// # Errors
+/// When the device fails.
+pub fn ask_of(
+    map: MappingId,
+    evaluator: &EvaluatorInfo,
+    computed: &dyn Evaluator,
+    device: &str,
+    family: Family,
+    effort: usize,
+) -> Result<Row, EvaluatorError> {
+    let asked = Asked {
+        info: evaluator,
+        computed,
+        device,
+    };
+    Subject::new(map, family, &family.inputs(effort), effort).row(asked)
+}
+
+/// Runs the plan, the processor's evaluators on all cores; ends early, with what there is, when the progress is cancelled.
+/// Without an adapter shaders are left out.
+pub fn stress(plan: &Plan, device: &dyn Device, progress: &Progress) -> Outcome<Row> {
     progress.enter(Stage::Measuring);
     let families = Family::ALL;
     let inputs: Vec<_> = families.iter().map(|f| f.inputs(plan.effort)).collect();
-    let total = plan
-        .maps
-        .iter()
-        .map(|map| map.evaluators().len())
-        .sum::<usize>()
-        * families.len();
+    let adapter = plan.devices.open(device);
+    let adapter_name = adapter.as_ref().and_then(|a| Some(&*a.as_ref().ok()?.name));
+    let takes_part = |evaluator: &&EvaluatorInfo| {
+        plan.devices.include(evaluator) && (adapter_name.is_some() || evaluator.form().is_none())
+    };
+    let evaluators = |map: &MappingId| map.evaluators().iter().filter(takes_part);
+    let total = plan.maps.iter().map(|map| evaluators(map).count());
+    let total = total.sum::<usize>() * families.len();
     let done = AtomicUsize::new(0);
-    let mut rows = Vec::new();
+    let step = || progress.step(done.fetch_add(1, Ordering::Relaxed) + 1, total);
+    let (mut rows, mut faults) = (Vec::new(), Vec::new());
     for map in &plan.maps {
+        let of_processor: Vec<_> = evaluators(map)
+            .filter_map(|info| Some((info, info.processor()?)))
+            .collect();
+        let mut shaders = Vec::new();
+        for info in evaluators(map).filter(|info| info.form().is_some()) {
+            match info.start(*map, device) {
+                Ok(shader) => shaders.push((info, shader)),
+                Err(error) => faults.push(format!("{map} by {}: {error}", info.id)),
+            }
+        }
         for (family, inputs) in families.iter().zip(&inputs) {
             let subject = Subject::new(*map, *family, inputs, plan.effort);
-            let found = map.evaluators().par_iter().map(|evaluator| {
-                let row = (!progress.is_cancelled()).then(|| subject.row(evaluator));
-                progress.step(done.fetch_add(1, Ordering::Relaxed) + 1, total);
+            let found = of_processor.par_iter().map(|(info, processor)| {
+                let asked = Asked {
+                    info,
+                    computed: &processor.on(Isa::best()),
+                    device: CPU,
+                };
+                let row = (!progress.is_cancelled()).then(|| subject.row(asked));
+                step();
                 row
             });
-            rows.extend(found.collect::<Vec<_>>().into_iter().flatten());
+            let mut found: Vec<_> = found.collect();
+            // The adapter does one thing at a time.
+            for (info, shader) in &shaders {
+                let asked = Asked {
+                    info,
+                    computed: &**shader,
+                    device: adapter_name.unwrap_or_default(),
+                };
+                found.push((!progress.is_cancelled()).then(|| subject.row(asked)));
+                step();
+            }
+            for row in found.into_iter().flatten() {
+                match row {
+                    Ok(row) => rows.push(row),
+                    Err(error) => faults.push(format!("{map} on {}: {error}", family.id())),
+                }
+            }
         }
     }
-    rows
+    Outcome {
+        rows,
+        adapter,
+        faults,
+    }
 }
