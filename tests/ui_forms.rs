@@ -101,6 +101,10 @@ fn a_scene_keeps_the_form_and_a_mapping_without_it_is_precise() {
     let json = ui.state().explorer().state().to_json().unwrap();
     assert!(json.contains(r#""form": "cube-unit""#), "{json}");
     assert_eq!(AppState::from_json(&json).unwrap().form, wanted);
+    for form in ShaderForm::ALL {
+        let text = format!(r#"{{"schema": 4, "form": {{"form": "{form}"}}}}"#);
+        assert_eq!(AppState::from_json(&text).unwrap().form.form, form);
+    }
     let old = AppState::from_json(r#"{"schema": 4}"#).unwrap();
     assert_eq!(old.form, FormState::default());
 }

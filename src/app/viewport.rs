@@ -229,7 +229,7 @@ fn paint_difference_legend(painter: &egui::Painter, model: &Model<'_>, rect: Rec
         (
             bar.right_top() - vec2(0.0, 4.0),
             Align2::RIGHT_BOTTOM,
-            &*format!("{form} off {}", ShaderForm::Precise),
+            &*format!("{form} against {}", ShaderForm::Precise),
         ),
     ] {
         edged_text(painter, at + vec2(0.0, 2.0), anchor, text, Color32::WHITE);

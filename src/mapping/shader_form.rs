@@ -11,20 +11,25 @@ use crate::math::approximation::{LEVELS, Level};
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
 )]
-#[serde(rename_all = "kebab-case")]
 pub enum ShaderForm {
     /// As near as f32: what maps are filled with, and what others are held against.
+    #[serde(rename = "wgsl")]
     #[default]
     Precise,
     /// Own arctangent of degree 11.
+    #[serde(rename = "wgsl-own-11")]
     Own11,
     /// Own arctangent of degree 7.
+    #[serde(rename = "wgsl-own-7")]
     Own7,
     /// The language's `atan`, `atan2`, `sin`, `cos` and `tan`.
+    #[serde(rename = "wgsl-built-in")]
     BuiltIn,
     /// A table in a texture.
+    #[serde(rename = "wgsl-table-256")]
     Table,
     /// The texel is left to a cube sampler: of the cube map as it is, of the continuous cube map by a bent direction.
+    #[serde(rename = "cube-unit")]
     CubeUnit,
 }
 
