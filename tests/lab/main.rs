@@ -10,4 +10,5 @@
 mod bench;
 mod command;
 mod evaluators;
+mod microscope;
 mod stress;

@@ -1,7 +1,7 @@
 //! What each evaluator may err by, and what is known to be broken. Tests and the command hold evaluators to this table.
 
-use super::Measures;
 use super::families::Family;
+use super::{Measure, Measures};
 use crate::mapping::{MappingId, ShaderForm};
 
 /// Largest errors of an evaluator in radians, whatever the mapping: forward, and there and back. Beside them what was
@@ -312,6 +312,13 @@ pub fn allowed(map: MappingId, evaluator: &str) -> Measures {
         max_fall_ulp: 2.0,
         ..Measures::default()
     }
+}
+
+/// What is known to be wrong with an evaluator in a measure; by ids of the mapping and of the evaluator.
+pub fn known(mapping: &str, evaluator: &str, measure: Measure) -> Option<&'static Expectation> {
+    EXPECTATIONS
+        .iter()
+        .find(|e| e.of == (mapping, evaluator) && e.measure == measure.id())
 }
 
 /// What is known to be wrong with an evaluator.

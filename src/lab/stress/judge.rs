@@ -1,8 +1,9 @@
 //! One evaluator on one family of inputs, against exact arithmetic.
 
-use super::budgets::{self, Expectation};
+use super::budgets;
 use super::families::{Family, walk_length};
-use super::{MEASURES, Measures, Row};
+use super::verdict::{Exact, Found, at_usual_size};
+use super::{Measure, Measures, Row, Standing};
 use crate::lab::accuracy::{direction_of, texel_rad};
 use crate::mapping::evaluator::SINGLE;
 use crate::mapping::{
@@ -20,8 +21,8 @@ pub(super) struct Subject {
     family: Family,
     effort: usize,
     dirs: DirList,
-    /// The exact chart, and whether it is a tie; `None` for what is no direction.
-    exact: Vec<Option<(u32, bool)>>,
+    /// `None` for what is no direction.
+    exact: Vec<Option<Exact>>,
 }
 
 /// Who is asked.
@@ -50,13 +51,9 @@ impl Subject {
         };
         let dirs: DirList = inputs.iter().filter(is_covered).copied().collect();
         let view = dirs.view();
-        let exact = (0..view.len()).map(|k| {
-            let dir = view.at(k).to_f64();
-            // Comparisons are exact, and f64 holds every f32 and what scaling makes of it.
-            let point = map.forward(Vec3::<f64>::from_f64(dir))?;
-            Some((point.chart, is_tie(map, dir)))
-        });
-        let exact = exact.collect();
+        let exact = (0..view.len())
+            .map(|k| Exact::of(map, view.at(k).to_f64()))
+            .collect();
         Self {
             map,
             family,
@@ -92,7 +89,7 @@ impl Subject {
             for start in (0..dirs.len()).step_by(walk_length(self.effort)) {
                 let range = start..(start + walk_length(self.effort)).min(dirs.len());
                 let walk: Vec<_> = range.map(|k| points.view().at(k).to_f64()).collect();
-                seen.walk(self.map, &walk);
+                seen.walk(self.map, start, &walk);
             }
         }
         Ok(self.judged(asked, &seen))
@@ -102,144 +99,134 @@ impl Subject {
     fn see(
         &self,
         k: usize,
-        exact: Option<(u32, bool)>,
+        exact: Option<Exact>,
         point: ChartPoint<f32>,
         back: Vec3<f32>,
         seen: &mut Seen,
     ) {
-        let (measures, is_nowhere) = (&mut seen.measures, point.chart == NOWHERE);
-        let Some((chart, is_tie)) = exact else {
-            measures.wrong_chart += u64::from(!is_nowhere);
-            seen.breaks(k, !is_nowhere);
-            return;
-        };
-        if is_nowhere {
-            measures.holes += 1;
-            return seen.breaks(k, true);
-        }
-        let coordinates = [point.u, point.v];
-        if !coordinates.iter().all(|c| c.is_finite()) {
-            measures.not_finite += 1;
-            return seen.breaks(k, true);
-        }
-        let is_wrong = point.chart != chart && !is_tie;
-        let is_out = !coordinates.iter().all(|c| (0.0..=1.0).contains(c));
-        measures.wrong_chart += u64::from(is_wrong);
-        measures.out_of_range += u64::from(is_out);
         let dir = self.dirs.view().at(k).to_f64();
-        if !self.map.info().coverage.contains(dir) {
-            return seen.breaks(k, is_wrong || is_out);
-        }
-        // At a size at which squares neither overflow nor vanish.
-        let dir = Vec3::<f64>::from_f64(dir)
-            .scaled_direction()
-            .map_or(dir, Vec3::to_f64);
-        if let Some(meant) = direction_of(self.map, point.to_f64()) {
-            let rad = angle_rad(meant, dir);
-            if rad > measures.max_forward_rad {
-                measures.max_forward_rad = rad;
-                seen.farthest = Some(k);
+        let found = Found::of(self.map, dir, exact, point);
+        for (is_so, measure) in [
+            (found.is_hole, Measure::Holes),
+            (found.is_wrong_chart, Measure::WrongChart),
+            (found.is_out_of_range, Measure::OutOfRange),
+            (found.is_not_finite, Measure::NotFinite),
+        ] {
+            if is_so {
+                seen.count(measure, k);
             }
         }
+        let Some(rad) = found.forward_rad else {
+            return;
+        };
+        seen.largest(Measure::Forward, k, rad);
         // A point outside of the chart has no way back; it has been counted.
         if back.max_abs() > 0.0 {
-            let rad = angle_rad(back.to_f64(), dir);
-            measures.max_round_trip_rad = measures.max_round_trip_rad.max(rad);
+            let rad = angle_rad(back.to_f64(), at_usual_size(dir));
+            seen.largest(Measure::RoundTrip, k, rad);
         }
-        seen.breaks(k, is_wrong || is_out);
     }
 
     fn judged(&self, asked: Asked<'_>, seen: &Seen) -> Row {
         let evaluator = asked.info;
         let (map, family) = (self.map, self.family);
-        let allowed = budgets::allowed(map, evaluator.id);
-        let expected: Vec<&Expectation> = budgets::expectations(map, evaluator.id).collect();
-        let mut faults = Vec::new();
-        let numbers = seen.measures.numbers().into_iter().zip(allowed.numbers());
-        for ((observed, allowed), name) in numbers.zip(MEASURES) {
-            let known = expected.iter().find(|e| e.measure == name);
-            let is_over = observed > allowed;
-            match known {
-                None if is_over => faults.push(format!("{name} {observed:.3e} > {allowed:.1e}")),
-                Some(known) if known.families.contains(&family) && !is_over => {
-                    faults.push(format!(
-                        "{name} {observed:.3e}: expected to fail, {}",
-                        known.why
-                    ));
-                }
-                _ => {}
-            }
-        }
-        let known = expected.iter().map(|e| format!("{}: {}", e.measure, e.why));
-        let known = known.collect::<Vec<_>>().join("; ");
-        let worst = seen.broken.or(seen.farthest).unwrap_or(0);
+        let known: Vec<String> = budgets::expectations(map, evaluator.id)
+            .map(|e| format!("{}: {}", e.measure, e.why))
+            .collect();
+        let input = |k: usize| self.dirs.view().at(k).to_array();
+        let worst_of = seen.worst.map(|k| k.map(input));
+        let worst = seen.broken.or(seen.worst[Measure::Forward as usize]);
         let bits = |c: f32| format!("0x{:08x}", c.to_bits());
-        let worst = if worst < self.dirs.len() {
-            self.dirs.view().at(worst).to_array().map(bits)
+        let worst = if self.dirs.is_empty() {
+            [0.0; 3]
         } else {
-            [0.0; 3].map(bits)
+            input(worst.unwrap_or(0))
         };
-        Row {
+        let mut row = Row {
             mapping: map.info().id,
             evaluator: evaluator.id,
             device: asked.device.to_owned(),
             family,
             n: self.dirs.len(),
-            observed: seen.measures,
-            worst,
-            allowed,
-            expected_fault: (!known.is_empty()).then_some(known),
-            broken: !faults.is_empty(),
-            fault: (!faults.is_empty()).then(|| faults.join("; ")),
-        }
+            observed: Measures::from_numbers(seen.numbers),
+            worst: worst.map(bits),
+            worst_of,
+            allowed: budgets::allowed(map, evaluator.id),
+            expected_fault: (!known.is_empty()).then(|| known.join("; ")),
+            broken: false,
+            fault: None,
+        };
+        let faults: Vec<String> = Measure::ALL
+            .iter()
+            .filter_map(|measure| fault(&row, *measure))
+            .collect();
+        row.broken = !faults.is_empty();
+        row.fault = row.broken.then(|| faults.join("; "));
+        row
     }
 }
 
-/// Whether charts meet at a direction exactly.
-fn is_tie(map: MappingId, [x, y, z]: [f64; 3]) -> bool {
-    let [x, y, z] = [x.abs(), y.abs(), z.abs()];
-    match map.info().charts.len() {
-        6 => {
-            let largest = x.max(y).max(z);
-            [x, y, z].iter().filter(|c| **c == largest).count() > 1
+/// What is wrong with a measure beyond what is known, in words.
+fn fault(row: &Row, measure: Measure) -> Option<String> {
+    let (name, observed) = (measure.id(), row.observed.number(measure));
+    match row.standing(measure) {
+        Standing::Kept | Standing::Known => None,
+        Standing::Broken => {
+            let allowed = row.allowed.number(measure);
+            Some(format!("{name} {observed:.3e} > {allowed:.1e}"))
         }
-        2 => z == 0.0,
-        _ => false,
+        Standing::Gone => {
+            let why = row.known(measure).map_or("", |known| known.why);
+            Some(format!("{name} {observed:.3e}: expected to fail, {why}"))
+        }
     }
 }
 
 /// What has been seen so far.
 #[derive(Default)]
 struct Seen {
-    measures: Measures,
+    /// In the order of [`Measure::ALL`].
+    numbers: [f64; 8],
+    /// The input of each measure's worst case; the first where inputs are counted.
+    worst: [Option<usize>; 8],
     /// The first input that broke something.
     broken: Option<usize>,
-    /// The input of the largest forward error.
-    farthest: Option<usize>,
 }
 
 impl Seen {
-    fn breaks(&mut self, k: usize, is_broken: bool) {
-        if is_broken {
-            self.broken.get_or_insert(k);
+    /// Counts an input that breaks something.
+    fn count(&mut self, measure: Measure, k: usize) {
+        self.numbers[measure as usize] += 1.0;
+        self.worst[measure as usize].get_or_insert(k);
+        self.broken.get_or_insert(k);
+    }
+
+    /// Keeps the largest.
+    fn largest(&mut self, measure: Measure, k: usize, x: f64) {
+        if x > self.numbers[measure as usize] {
+            self.numbers[measure as usize] = x;
+            self.worst[measure as usize] = Some(k);
         }
     }
 
-    /// Takes in a walk: for each step the points below, on and above a seam.
-    fn walk(&mut self, map: MappingId, walk: &[ChartPoint<f64>]) {
+    /// Takes in a walk whose first input is the one of the given number: for each step the points below, on and above a seam.
+    fn walk(&mut self, map: MappingId, start: usize, walk: &[ChartPoint<f64>]) {
         let info = map.info();
         // A rim that is one direction, or that bounds the half that is covered, has no other side.
         let has_seams = info.chart_count() > 1 || info.domain == Domain::Square;
         let steps: Vec<_> = walk.chunks_exact(3).collect();
+        // The input on the seam.
+        let on_seam = |step: usize| start + 3 * step + 1;
         if has_seams {
-            for step in &steps {
+            for (k, step) in steps.iter().enumerate() {
                 let jump = seam_jump(map, step[0], step[2]) * TEXELS;
-                self.measures.max_seam_jump_texels = self.measures.max_seam_jump_texels.max(jump);
+                self.largest(Measure::SeamJump, on_seam(k), jump);
             }
         }
         if info.chart_count() == 6 {
             let on: Vec<_> = steps.iter().map(|step| step[1]).collect();
-            self.measures.max_fall_ulp = self.measures.max_fall_ulp.max(largest_fall(&on));
+            let (fall, step) = largest_fall(&on);
+            self.largest(Measure::Fall, on_seam(step), fall);
         }
     }
 }
@@ -288,11 +275,13 @@ fn seam_jump(map: MappingId, p: ChartPoint<f64>, q: ChartPoint<f64>) -> f64 {
     (s - t).abs().min(on_sphere)
 }
 
-/// Most ULP by which the coordinate that changes most over a run on one chart steps against its way.
-fn largest_fall(walk: &[ChartPoint<f64>]) -> f64 {
+/// Most ULP by which the coordinate that changes most over a run on one chart steps against its way, and the step before it.
+fn largest_fall(walk: &[ChartPoint<f64>]) -> (f64, usize) {
     const ULP: f64 = 0.5 * f32::EPSILON as f64;
-    let mut fall = 0.0_f64;
+    let (mut fall, mut at, mut start) = (0.0_f64, 0, 0);
     for run in walk.chunk_by(|a, b| a.chart == b.chart) {
+        let before = start;
+        start += run.len();
         let [first, .., last] = run else {
             continue;
         };
@@ -304,9 +293,12 @@ fn largest_fall(walk: &[ChartPoint<f64>]) -> f64 {
                 p.v * dv.signum()
             }
         };
-        for pair in run.windows(2) {
-            fall = fall.max((place(&pair[0]) - place(&pair[1])) / ULP);
+        for (k, pair) in run.windows(2).enumerate() {
+            let step = (place(&pair[0]) - place(&pair[1])) / ULP;
+            if step > fall {
+                (fall, at) = (step, before + k);
+            }
         }
     }
-    fall
+    (fall, at)
 }

@@ -3,11 +3,15 @@
 pub mod budgets;
 pub mod families;
 mod judge;
+pub mod microscope;
+pub mod palette;
+pub mod places;
+mod verdict;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use budgets::{Expectation, allowed, expectations};
 pub use families::Family;
@@ -40,6 +44,48 @@ pub struct Measures {
     pub max_fall_ulp: f64,
 }
 
+/// One of the [`Measures`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Measure {
+    /// See [`Measures::holes`].
+    #[default]
+    Holes,
+    /// See [`Measures::wrong_chart`].
+    WrongChart,
+    /// See [`Measures::out_of_range`].
+    OutOfRange,
+    /// See [`Measures::not_finite`].
+    NotFinite,
+    /// See [`Measures::max_round_trip_rad`].
+    RoundTrip,
+    /// See [`Measures::max_forward_rad`].
+    Forward,
+    /// See [`Measures::max_seam_jump_texels`].
+    SeamJump,
+    /// See [`Measures::max_fall_ulp`].
+    Fall,
+}
+
+impl Measure {
+    /// All of them, in the order of [`MEASURES`].
+    pub const ALL: [Self; 8] = [
+        Self::Holes,
+        Self::WrongChart,
+        Self::OutOfRange,
+        Self::NotFinite,
+        Self::RoundTrip,
+        Self::Forward,
+        Self::SeamJump,
+        Self::Fall,
+    ];
+
+    /// The word in reports.
+    pub const fn id(self) -> &'static str {
+        MEASURES[self as usize]
+    }
+}
+
 /// The names of the measures, in order.
 pub const MEASURES: [&str; 8] = [
     "holes",
@@ -53,6 +99,28 @@ pub const MEASURES: [&str; 8] = [
 ];
 
 impl Measures {
+    /// Of the numbers in the order of [`MEASURES`].
+    fn from_numbers(numbers: [f64; 8]) -> Self {
+        // Counts of inputs: f64 holds them exactly.
+        let [holes, wrong_chart, out_of_range, not_finite] =
+            [0, 1, 2, 3].map(|k: usize| numbers[k] as u64);
+        Self {
+            holes,
+            wrong_chart,
+            out_of_range,
+            not_finite,
+            max_round_trip_rad: numbers[4],
+            max_forward_rad: numbers[5],
+            max_seam_jump_texels: numbers[6],
+            max_fall_ulp: numbers[7],
+        }
+    }
+
+    /// The number of one measure.
+    pub fn number(&self, measure: Measure) -> f64 {
+        self.numbers()[measure as usize]
+    }
+
     /// The numbers in the order of [`MEASURES`].
     pub fn numbers(&self) -> [f64; 8] {
         [
@@ -86,6 +154,9 @@ pub struct Row {
     pub observed: Measures,
     /// The input of the worst case as the bits of three f32: what broke first, else the largest forward error.
     pub worst: [String; 3],
+    /// The input of each measure's worst case, in the order of [`Measure::ALL`]; `None` where nothing is wrong at all.
+    #[serde(skip)]
+    pub worst_of: [Option<[f32; 3]>; 8],
     /// What is allowed.
     pub allowed: Measures,
     /// The measures that are known to be worse than allowed, with the reason.
@@ -94,6 +165,37 @@ pub struct Row {
     pub broken: bool,
     /// What is wrong, in words.
     pub fault: Option<String>,
+}
+
+/// How a measure stands to what is promised.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// Within what is allowed.
+    Kept,
+    /// Over it, as it is known to be.
+    Known,
+    /// Over it.
+    Broken,
+    /// Within it, though it is known to be over it on these inputs.
+    Gone,
+}
+
+impl Row {
+    /// How one measure stands.
+    pub fn standing(&self, measure: Measure) -> Standing {
+        let [observed, allowed] = [self.observed, self.allowed].map(|m| m.number(measure));
+        match (observed > allowed, self.known(measure)) {
+            (true, Some(_)) => Standing::Known,
+            (true, None) => Standing::Broken,
+            (false, Some(known)) if known.families.contains(&self.family) => Standing::Gone,
+            (false, _) => Standing::Kept,
+        }
+    }
+
+    /// What is known to be wrong with the evaluator in a measure.
+    pub fn known(&self, measure: Measure) -> Option<&'static Expectation> {
+        budgets::known(self.mapping, self.evaluator, measure)
+    }
 }
 
 /// How much is asked.
