@@ -14,7 +14,7 @@ use super::figures::Figure;
 use super::probe;
 use super::state::{
     AppState, CurvesState, EyeRay, FormState, InspectorState, LossState, Overlays, PanelState,
-    StoryState, unit,
+    StabilityState, StoryState, unit,
 };
 
 /// One change of the state.
@@ -52,6 +52,10 @@ pub enum Action {
     SetStory(StoryState),
     /// Show or hide the loss laboratory, or measure something else in it.
     SetLoss(LossState),
+    /// Show or hide the stability pane, or look at something else in it.
+    SetStability(Box<StabilityState>),
+    /// Put the eye where a mirror in the middle shows it this direction.
+    FaceDirection([f32; 3]),
     /// Turn the camera by these angles in radians.
     Orbit {
         /// To the right.
@@ -112,6 +116,7 @@ impl Action {
             Self::SetMaterial(_) => Some(("material", None)),
             Self::SetStory(_) => Some(("story", None)),
             Self::SetLoss(_) => Some(("loss", None)),
+            Self::SetStability(_) => Some(("stability", None)),
             Self::SetPanelView(view) => Some(("panel", Some(view.mapping))),
             _ => None,
         }
@@ -182,6 +187,11 @@ pub fn apply(state: &mut AppState, action: Action) {
             set_open(state, Pane::Loss, loss.open);
             state.loss = loss.sanitized();
         }
+        Action::SetStability(stability) => {
+            set_open(state, Pane::Stability, stability.open);
+            state.stability = stability.sanitized();
+        }
+        Action::FaceDirection(dir) => state.camera.go_to(unit(dir).into()),
         Action::Orbit { dx_rad, dy_rad } => state.camera.orbit(dx_rad, dy_rad),
         Action::Zoom(factor) => state.camera.zoom(factor),
         Action::ResetCamera => state.camera = AppState::default().camera,

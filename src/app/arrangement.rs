@@ -21,11 +21,13 @@ pub enum Pane {
     Story,
     /// What a conversion loses.
     Loss,
+    /// Where the ways to compute a mapping break.
+    Stability,
 }
 
 impl Pane {
     /// The panes that are read more than looked at: the window's menu lists them, and they need height.
-    pub const READ: [Self; 3] = [Self::Curves, Self::Story, Self::Loss];
+    pub const READ: [Self; 4] = [Self::Curves, Self::Story, Self::Loss, Self::Stability];
 
     /// Its title.
     pub fn name(self) -> &'static str {
@@ -35,6 +37,7 @@ impl Pane {
             Self::Curves => "Reflectance curves",
             Self::Story => "Ray story",
             Self::Loss => "Loss laboratory",
+            Self::Stability => "Stability",
         }
     }
 }

@@ -44,6 +44,8 @@ pub enum Command {
     Cancel(u64),
     /// Measure again what was given up.
     MeasureLoss,
+    /// Ask every evaluator of the selected mapping where it breaks, in a job.
+    MeasureStability,
     /// Take a message away.
     Dismiss(usize),
     /// Put text on the clipboard.

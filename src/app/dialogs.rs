@@ -224,7 +224,8 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
             .selected_text(fields.what.name())
             .show_ui(ui, |ui| {
                 let maps = MappingId::ALL.iter().map(|m| What::Panel(*m));
-                for what in [What::Window, What::Viewport].into_iter().chain(maps) {
+                let first = [What::Window, What::Viewport, What::Microscope];
+                for what in first.into_iter().chain(maps) {
                     ui.selectable_value(&mut fields.what, what, what.name());
                 }
             })

@@ -51,6 +51,8 @@ pub struct Explorer {
     labs: Labs,
     /// The panes that were drawn last.
     seen: Vec<Pane>,
+    /// Pixels of the microscope's picture that was drawn last.
+    microscope_px: Option<[usize; 2]>,
     surroundings: Option<Surroundings>,
     loading: Option<Job<Result<Loading, Refusal>>>,
     opening: Option<Job<Result<Opened, String>>>,
@@ -92,6 +94,7 @@ impl Explorer {
             history: History::default(),
             labs: Labs::default(),
             seen: Vec::new(),
+            microscope_px: None,
             surroundings: None,
             loading: None,
             opening: None,
@@ -232,6 +235,7 @@ impl Explorer {
         }
         self.draw_views(&ctx, &laid_out);
         self.measure_loss(&ctx);
+        self.look(&ctx);
         self.measure_pace(&ctx);
         // What was just changed is seen in the next frame; a still window asks for none.
         let draws_on = self.pending && !self.waits;
@@ -249,10 +253,12 @@ impl Explorer {
         let (_, laid_out) = self.with_model(|model| match what {
             picture::What::Viewport => super::viewport::viewport_ui(ui, model),
             picture::What::Panel(mapping) => super::map_panel::map_panel_ui(ui, model, mapping),
+            picture::What::Microscope => super::microscope::microscope_ui(ui, model),
             picture::What::Window => {}
         });
         let ctx = ui.ctx().clone();
         self.draw_views(&ctx, &laid_out);
+        self.look(&ctx);
     }
 
     /// Runs `show` on a model of what there is; gives back what was asked for and what was laid out.
@@ -271,6 +277,7 @@ impl Explorer {
             story: story::steps_if_open(&self.state, self.object.target()),
             labs: &self.labs,
             seen: Vec::new(),
+            microscope_px: None,
             texel_color: self.probed,
             plan: &self.plan,
             frames: self.frames,
@@ -286,6 +293,7 @@ impl Explorer {
         };
         show(&mut model);
         let (commands, laid_out, seen) = (model.commands, model.laid_out, model.seen);
+        self.microscope_px = model.microscope_px;
         self.seen = seen;
         (commands, laid_out)
     }
@@ -386,6 +394,7 @@ impl Explorer {
             Command::Export(export) => self.export(ctx, *export),
             Command::Cancel(id) => self.cancel(id),
             Command::MeasureLoss => self.labs.loss.try_again(),
+            Command::MeasureStability => self.measure_stability(ctx),
             Command::Dismiss(index) => {
                 if index < self.messages.len() {
                     self.messages.remove(index);

@@ -4,6 +4,7 @@ use egui::Context;
 
 use super::loss::LossLab;
 use super::model::JobLine;
+use super::stability::StabilityLab;
 
 /// What the window asks of every laboratory, whatever it measures.
 pub trait Lab {
@@ -20,15 +21,17 @@ pub trait Lab {
 pub struct Labs {
     /// What a conversion loses.
     pub loss: LossLab,
+    /// Where evaluators break.
+    pub stability: StabilityLab,
 }
 
 impl Labs {
-    fn all(&self) -> [&dyn Lab; 1] {
-        [&self.loss]
+    fn all(&self) -> [&dyn Lab; 2] {
+        [&self.loss, &self.stability]
     }
 
-    fn all_mut(&mut self) -> [&mut dyn Lab; 1] {
-        [&mut self.loss]
+    fn all_mut(&mut self) -> [&mut dyn Lab; 2] {
+        [&mut self.loss, &mut self.stability]
     }
 
     /// Takes in what the jobs have brought.

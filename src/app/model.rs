@@ -74,6 +74,8 @@ pub struct Model<'a> {
     pub labs: &'a Labs,
     /// The panes that are drawn: what only a hidden one would show is not computed.
     pub seen: Vec<Pane>,
+    /// Pixels of the microscope's picture, where it is laid out.
+    pub microscope_px: Option<[usize; 2]>,
     /// Linear colour of the probed texel in the selected map, when it has been read back.
     pub texel_color: Option<[f32; 3]>,
     /// The frame plan's account of the last drawing.

@@ -21,6 +21,8 @@ pub enum What {
     Viewport,
     /// The unfolded picture of a mapping.
     Panel(MappingId),
+    /// What the microscope of the stability pane shows.
+    Microscope,
 }
 
 impl What {
@@ -29,6 +31,7 @@ impl What {
         match self {
             Self::Window => "the whole window".to_owned(),
             Self::Viewport => "the viewport".to_owned(),
+            Self::Microscope => "the microscope".to_owned(),
             Self::Panel(mapping) => format!("the panel {}", mapping.info().name),
         }
     }

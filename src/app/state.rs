@@ -3,6 +3,7 @@
 mod form;
 mod loss;
 mod optics;
+mod stability;
 mod views;
 
 use std::path::PathBuf;
@@ -25,6 +26,7 @@ use super::viewport::looked_up;
 pub use form::FormState;
 pub use loss::{LOSS_ROWS, LossState, MOST_MAGNIFIED};
 pub use optics::{CurvesState, StoryKind, StoryState};
+pub use stability::{LENGTHS, StabilityState};
 pub use views::{InspectorState, Overlays, PanelState, Precision, ZOOM_RANGE};
 
 /// Version of the saved form. A scene of a later version is refused; earlier ones are migrated by [`AppState::from_json`].
@@ -89,6 +91,8 @@ pub struct AppState {
     pub story: StoryState,
     /// The loss laboratory.
     pub loss: LossState,
+    /// Where evaluators break.
+    pub stability: StabilityState,
     /// The controls at the left are shown.
     pub controls_open: bool,
     /// What the inspector shows.
@@ -187,6 +191,7 @@ impl Default for AppState {
             curves: CurvesState::default(),
             story: StoryState::default(),
             loss: LossState::default(),
+            stability: StabilityState::default(),
             controls_open: true,
             inspector: InspectorState::default(),
         }
@@ -251,6 +256,7 @@ impl AppState {
         self.compare_material = self.compare_material.map(Material::sanitized);
         self.form = self.form.sanitized();
         self.loss = self.loss.sanitized();
+        self.stability = self.stability.sanitized();
         self.probe = unit(self.probe);
         self.eye_ray = self.eye_ray.filter(|eye| {
             let ray = eye.ray();
@@ -306,6 +312,7 @@ impl AppState {
             Pane::Curves => self.curves_open,
             Pane::Story => self.story.open,
             Pane::Loss => self.loss.open,
+            Pane::Stability => self.stability.open,
             Pane::Map(mapping) => self.panel(mapping).open,
         }
     }
@@ -317,6 +324,7 @@ impl AppState {
             Pane::Curves => Some(&mut self.curves_open),
             Pane::Story => Some(&mut self.story.open),
             Pane::Loss => Some(&mut self.loss.open),
+            Pane::Stability => Some(&mut self.stability.open),
             Pane::Map(mapping) => Some(&mut self.panel_mut(mapping)?.open),
         }
     }

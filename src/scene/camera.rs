@@ -165,6 +165,19 @@ impl Camera {
         }
     }
 
+    /// Goes around until the eye is where `dir` points: there a mirror in the middle shows the light from `dir`. Over a pole
+    /// it stops at [`MAX_PITCH_RAD`].
+    pub fn go_to(&mut self, dir: Vec3) {
+        let turned = Self {
+            yaw_rad: f32::atan2(-dir.x, -dir.z),
+            pitch_rad: f32::atan2(dir.y, dir.x.hypot(dir.z)),
+            ..*self
+        };
+        if dir.is_finite() {
+            *self = turned.sanitized();
+        }
+    }
+
     /// Back to the default: straight ahead from -z.
     pub fn reset(&mut self) {
         *self = Self::default();
@@ -289,6 +302,25 @@ fn sane_aspect(aspect: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_eye_goes_where_it_is_sent() {
+        for dir in [Vec3::X, Vec3::NEG_Z, Vec3::new(0.3, -0.8, 0.5)] {
+            for mut camera in cameras() {
+                let before = (camera.distance, camera.fov_y_rad);
+                camera.go_to(dir);
+                let apart = camera.eye().angle_between(dir);
+                assert!(apart < 1e-3, "{dir}: {apart}");
+                assert_eq!((camera.distance, camera.fov_y_rad), before);
+            }
+        }
+        let mut camera = Camera::default();
+        camera.go_to(Vec3::Y);
+        assert_eq!(camera.pitch_rad, MAX_PITCH_RAD);
+        let before = camera;
+        camera.go_to(Vec3::splat(f32::NAN));
+        assert_eq!(camera, before);
+    }
 
     /// Cameras over the whole range, the borders included.
     fn cameras() -> Vec<Camera> {

@@ -298,6 +298,37 @@ impl Explorer {
         }
     }
 
+    /// Asks the evaluators of the selected mapping where they break.
+    pub(super) fn measure_stability(&mut self, ctx: &Context) {
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        let measured = self.labs.stability.measure(self.state.mapping, &mut jobs);
+        if let Err(why) = measured {
+            self.fail(why);
+        }
+    }
+
+    /// Looks through the microscope that is seen.
+    pub(super) fn look(&mut self, ctx: &Context) {
+        let state = &self.state;
+        let view = self
+            .microscope_px
+            .map(|size| state.stability.view(state.mapping, size));
+        if self.complete {
+            self.labs.stability.look_now(view, ctx);
+            return;
+        }
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        if let Err(why) = self.labs.stability.follow(view, &mut jobs) {
+            self.fail(why);
+        }
+    }
+
     /// Measures how fast the export of the open dialog will be.
     pub(super) fn measure_pace(&mut self, ctx: &Context) {
         let wanted = match (&self.dialog, &self.surroundings) {
