@@ -5,16 +5,16 @@ use egui::{Align, ComboBox, DragValue, Label, Layout, RichText, ScrollArea, Slid
 use super::action::Action;
 use super::microscope::{degrees_text, microscope_ui, move_probe};
 use super::model::Model;
-use super::stability_table::table_ui;
+use super::stability_table::{TABLE_WIDTH, table_ui};
 use super::state::{LENGTHS, StabilityState};
 use super::theme;
 use crate::lab::stress::microscope::{Lengths, SPAN_DEG};
 use crate::lab::stress::places::{PLACES, Place};
 
 /// Width from which table and microscope stand side by side: the table's with the microscope's.
-const WIDE: f32 = 980.0;
-/// Width of the table there.
-const TABLE_WIDTH: f32 = 560.0;
+const WIDE: f32 = 1040.0;
+/// Room beside the table for what scrolls it.
+const SCROLL_BAR: f32 = 14.0;
 /// Below this width or height everything scrolls together.
 const LEAST: egui::Vec2 = vec2(200.0, 380.0);
 /// Height of the microscope there.
@@ -39,8 +39,9 @@ pub fn stability_ui(ui: &mut Ui, model: &mut Model<'_>) {
             });
         } else if size.x >= WIDE {
             ui.horizontal_top(|ui| {
-                ui.allocate_ui_with_layout(vec2(TABLE_WIDTH, size.y), column, |ui| {
-                    ui.set_width(TABLE_WIDTH);
+                let width = TABLE_WIDTH + SCROLL_BAR;
+                ui.allocate_ui_with_layout(vec2(width, size.y), column, |ui| {
+                    ui.set_width(width);
                     table_ui(ui, model);
                 });
                 ui.allocate_ui_with_layout(ui.available_size(), column, |ui| {

@@ -127,15 +127,16 @@ fn summary(table: &Table) -> String {
 /// Size of a cell, and of the column of names.
 const CELL: egui::Vec2 = vec2(50.0, 17.0);
 const NAME_WIDTH: f32 = 104.0;
+/// Width of the whole table.
+pub(super) const TABLE_WIDTH: f32 = NAME_WIDTH + CELL.x * (1 + Family::ALL.len()) as f32;
 
 /// A line for each evaluator, a column for what is allowed and for each family.
 fn cells_ui(ui: &mut Ui, model: &mut Model<'_>, table: &Table) {
-    let width = NAME_WIDTH + CELL.x * (1 + Family::ALL.len()) as f32;
     let scroll = ScrollArea::horizontal().auto_shrink([false, false]);
     scroll.show(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(0.0, 1.0);
         ui.spacing_mut().interact_size.y = CELL.y;
-        ui.set_min_width(width);
+        ui.set_min_width(TABLE_WIDTH);
         ui.horizontal(titles_ui);
         let scroll = ScrollArea::vertical().auto_shrink([false, false]);
         scroll.show(ui, |ui| {

@@ -155,6 +155,35 @@ fn a_discs_radius_depends_on_the_length_of_the_vectors() {
 }
 
 #[test]
+fn scattered_pixels_make_no_stripes() {
+    let place = places("Black disc between -x and -y")[0];
+    // Shares of black in the rows of the disc's middle.
+    let shares = |is_scattered: bool| -> (Vec<f64>, f64) {
+        let view = View {
+            is_scattered,
+            ..place.view([600, 600])
+        };
+        let picture = seen(&view);
+        let share = |row: usize| {
+            let columns = 270..330;
+            let black =
+                |column: &usize| picture.at([*column, row]).unwrap().verdict == Verdict::Hole;
+            columns.clone().filter(black).count() as f64 / columns.len() as f64
+        };
+        let radius = equal_radius(&picture, Verdict::Hole);
+        ((270..330).map(share).collect(), radius)
+    };
+    let (scattered, radius) = shares(true);
+    assert!(
+        scattered.iter().all(|share| (0.55..1.0).contains(share)),
+        "{scattered:?}"
+    );
+    let (regular, same) = shares(false);
+    assert!(regular.contains(&0.0), "control: {regular:?}");
+    assert!((radius / same - 1.0).abs() < 0.05, "{radius:e} {same:e}");
+}
+
+#[test]
 fn the_corner_hole_of_fused_products_is_one_direction() {
     let place = places("Corner hole")[0];
     let picture = seen(&place.view([200, 200]));
@@ -283,6 +312,7 @@ fn a_pixels_direction_is_rounded_once() {
         span_deg: 1e-3,
         lengths: Lengths::Sphere(1.0),
         size: [64, 48],
+        is_scattered: false,
     };
     let picture = seen(&view);
     let direction = view.directions();

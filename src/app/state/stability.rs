@@ -82,13 +82,20 @@ impl StabilityState {
 
     /// What the microscope shows on so many pixels.
     pub fn view(&self, mapping: MappingId, size: [usize; 2]) -> View {
-        View {
+        let view = View {
             map: mapping,
             evaluator: self.evaluator_of(mapping).map_or(SINGLE, |e| e.id),
             center: self.center,
             span_deg: self.span_deg,
             lengths: self.lengths,
             size,
+            is_scattered: false,
+        };
+        /// Two steps of f32 below 1.
+        const FINE: f64 = f32::EPSILON as f64;
+        View {
+            is_scattered: view.pitch() > FINE,
+            ..view
         }
     }
 

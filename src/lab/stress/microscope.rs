@@ -15,6 +15,7 @@ use super::budgets::allowed;
 use super::verdict::{Exact, Found};
 use crate::imaging::{Progress, Stage};
 use crate::mapping::{Coverage, Device, DirList, EvaluatorInfo, MappingId, PointList};
+use crate::math::inputs::Random;
 use crate::math::{Isa, Vec3};
 
 /// The angles across a picture that make sense, in degrees: from six of f32's steps to a wide camera.
@@ -46,6 +47,9 @@ pub struct View {
     pub lengths: Lengths,
     /// Pixels across and down.
     pub size: [usize; 2],
+    /// Each pixel is looked at in a random place of its own, the same in every picture, instead of in its middle. Where a pixel
+    /// is wider than f32's steps, both grids together would make stripes that neither has.
+    pub is_scattered: bool,
 }
 
 impl View {
@@ -236,8 +240,17 @@ impl Picture {
 /// The directions of a row of pixels, each rounded to f32 once.
 fn row_dirs(view: &View, row: usize) -> DirList {
     let direction = view.directions();
+    let mut random = Random::new(row as u64);
+    let mut off = || {
+        if view.is_scattered {
+            random.unit()
+        } else {
+            0.5
+        }
+    };
     (0..view.size[0])
-        .map(|column| direction([column as f64 + 0.5, row as f64 + 0.5]).map(|c| c as f32))
+        .map(|column| [column as f64 + off(), row as f64 + off()])
+        .map(|place| direction(place).map(|c| c as f32))
         .collect()
 }
 

@@ -34,6 +34,7 @@ impl Place {
             span_deg: self.span_deg,
             lengths: self.lengths,
             size,
+            is_scattered: false,
         }
     }
 }
