@@ -205,3 +205,23 @@ fn eval_runs_any_evaluator() {
         text(&unknown.stderr)
     );
 }
+
+#[cfg(not(feature = "explorer"))]
+#[test]
+fn without_the_explorer_shaders_are_left_out_with_a_reason() {
+    let lines = |run: &Output| text(&run.stderr).lines().count();
+    for command in ["bench", "stress"] {
+        let run = sixfold(&[command, "--quick", "cube"]);
+        assert_eq!((run.status.code(), lines(&run)), (Some(0), 1), "{command}");
+        assert!(text(&run.stderr).contains("built without the explorer"));
+        let named = sixfold(&[command, "--quick", "cube", "--device", "gpu"]);
+        assert_eq!((named.status.code(), lines(&named)), (Some(1), 1));
+        let cpu = sixfold(&[command, "--quick", "cube", "--device", "cpu"]);
+        assert_eq!((cpu.status.code(), lines(&cpu)), (Some(0), 0), "{command}");
+    }
+    let run = sixfold(&["eval", "ccm", "--evaluator", "wgsl"]);
+    assert_eq!((run.status.code(), lines(&run)), (Some(1), 1));
+    // They are listed all the same, with where they would run.
+    let maps = sixfold(&["maps", "--json"]);
+    assert!(text(&maps.stdout).contains(r#""device": "gpu""#));
+}
