@@ -158,23 +158,15 @@ fn wrong_words_are_refused() {
 
 #[test]
 fn eval_runs_any_evaluator() {
-    use std::io::Write;
-    use std::process::Stdio;
+    use std::io::{Seek, Write};
+    // A file, not a pipe: the program may end before it has read.
     let run = |arguments: &[&str], input: &str| {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_sixfold"))
-            .args(arguments)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        child
-            .stdin
-            .take()
-            .unwrap()
-            .write_all(input.as_bytes())
-            .unwrap();
-        child.wait_with_output().unwrap()
+        let mut lines = tempfile::tempfile().unwrap();
+        lines.write_all(input.as_bytes()).unwrap();
+        lines.rewind().unwrap();
+        let program = env!("CARGO_BIN_EXE_sixfold");
+        let mut command = Command::new(program);
+        command.args(arguments).stdin(lines).output().unwrap()
     };
     let found = run(&["eval", "ccm", "--evaluator", "atan-17"], "0.3,-1,0.2\n");
     let line = text(&found.stdout).lines().nth(1).unwrap().to_owned();
