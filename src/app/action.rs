@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::gpu::ToneCurve;
 use crate::imaging::Environment;
-use crate::mapping::{ChartPoint, MappingId};
+use crate::mapping::{ChartPoint, EvaluatorInfo, MappingId};
 use crate::math::{Rotation, Vec3};
 use crate::optics::Material;
 use crate::scene::Object;
@@ -13,8 +13,8 @@ use super::arrangement::Pane;
 use super::figures::Figure;
 use super::probe;
 use super::state::{
-    AppState, CurvesState, EyeRay, FormState, InspectorState, LossState, Overlays, PanelState,
-    StabilityState, StoryState, unit,
+    AppState, CurvesState, EyeRay, FormState, InspectorState, LaboratoryState, LossState, Overlays,
+    PanelState, StabilityState, StoryState, unit,
 };
 
 /// One change of the state.
@@ -56,6 +56,10 @@ pub enum Action {
     SetStability(Box<StabilityState>),
     /// Put the eye where a mirror in the middle shows it this direction.
     FaceDirection([f32; 3]),
+    /// Show or hide the laboratory, or look at something else in it.
+    SetLaboratory(Box<LaboratoryState>),
+    /// Compute a mapping, which is then looked up, by the evaluator of that name.
+    UseEvaluator(MappingId, String),
     /// Turn the camera by these angles in radians.
     Orbit {
         /// To the right.
@@ -117,6 +121,7 @@ impl Action {
             Self::SetStory(_) => Some(("story", None)),
             Self::SetLoss(_) => Some(("loss", None)),
             Self::SetStability(_) => Some(("stability", None)),
+            Self::SetLaboratory(_) => Some(("laboratory", None)),
             Self::SetPanelView(view) => Some(("panel", Some(view.mapping))),
             _ => None,
         }
@@ -136,13 +141,7 @@ pub fn apply(state: &mut AppState, action: Action) {
     match action {
         Action::SetEnvironment(environment) => state.environment = environment,
         Action::SetRotation(rotation) => state.rotation = rotation.sanitized(),
-        Action::SetMapping(mapping) => {
-            state.mapping = mapping;
-            state.inspector.mapping = mapping;
-            if state.compare == Some(mapping) {
-                state.compare = None;
-            }
-        }
+        Action::SetMapping(mapping) => set_mapping(state, mapping),
         Action::SetCompare(compare) => state.compare = compare.filter(|m| *m != state.mapping),
         Action::SetForm(form) => state.form = form.sanitized(),
         Action::SetDivider(divider) if divider.is_finite() => {
@@ -192,6 +191,21 @@ pub fn apply(state: &mut AppState, action: Action) {
             state.stability = stability.sanitized();
         }
         Action::FaceDirection(dir) => state.camera.go_to(unit(dir).into()),
+        Action::SetLaboratory(laboratory) => {
+            set_open(state, Pane::Laboratory, laboratory.open);
+            state.laboratory = laboratory.sanitized();
+        }
+        Action::UseEvaluator(mapping, id) => {
+            match mapping.evaluator(&id).and_then(EvaluatorInfo::form) {
+                // The viewport draws by a shader; what the processor computes stays as it is.
+                Some(form) => state.form.form = form,
+                None => {
+                    state.laboratory.evaluators.insert(mapping, id);
+                    state.laboratory = std::mem::take(&mut state.laboratory).sanitized();
+                }
+            }
+            set_mapping(state, mapping);
+        }
         Action::Orbit { dx_rad, dy_rad } => state.camera.orbit(dx_rad, dy_rad),
         Action::Zoom(factor) => state.camera.zoom(factor),
         Action::ResetCamera => state.camera = AppState::default().camera,
@@ -231,6 +245,14 @@ pub fn apply(state: &mut AppState, action: Action) {
         Action::SetControlsOpen(open) => state.controls_open = open,
         Action::SetMaximised(pane) => state.show_alone(pane),
         Action::Load(loaded) => *state = loaded.sanitized(),
+    }
+}
+
+fn set_mapping(state: &mut AppState, mapping: MappingId) {
+    state.mapping = mapping;
+    state.inspector.mapping = mapping;
+    if state.compare == Some(mapping) {
+        state.compare = None;
     }
 }
 

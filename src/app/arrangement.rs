@@ -23,11 +23,19 @@ pub enum Pane {
     Loss,
     /// Where the ways to compute a mapping break.
     Stability,
+    /// Run time against error.
+    Laboratory,
 }
 
 impl Pane {
     /// The panes that are read more than looked at: the window's menu lists them, and they need height.
-    pub const READ: [Self; 4] = [Self::Curves, Self::Story, Self::Loss, Self::Stability];
+    pub const READ: [Self; 5] = [
+        Self::Curves,
+        Self::Story,
+        Self::Loss,
+        Self::Laboratory,
+        Self::Stability,
+    ];
 
     /// Its title.
     pub fn name(self) -> &'static str {
@@ -38,6 +46,7 @@ impl Pane {
             Self::Story => "Ray story",
             Self::Loss => "Loss laboratory",
             Self::Stability => "Stability",
+            Self::Laboratory => "Run time and error",
         }
     }
 }

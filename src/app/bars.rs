@@ -7,6 +7,7 @@ use super::arrangement::Pane;
 use super::command::Command;
 use super::dialogs::{Dialog, PictureDialog, SaveDialog};
 use super::figures::Figure;
+use super::laboratory::used_text;
 use super::model::{JobLine, Model};
 use crate::imaging::Environment;
 
@@ -161,6 +162,11 @@ pub fn status_ui(ui: &mut Ui, model: &mut Model<'_>) {
             if ui.small_button("Cancel").clicked() {
                 model.commands.push(Command::Cancel(job.id));
             }
+            ui.separator();
+        }
+        if let Some(used) = model.used.filter(|_| model.state.laboratory.budget_on) {
+            let text = used_text(model.state.mapping, &used);
+            ui.label(RichText::new(text).small());
             ui.separator();
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

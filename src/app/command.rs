@@ -46,6 +46,15 @@ pub enum Command {
     MeasureLoss,
     /// Ask every evaluator of the selected mapping where it breaks, in a job.
     MeasureStability,
+    /// Measure run time and error of the evaluators that the laboratory shows, in a job.
+    MeasureEvaluators,
+    /// Write what was measured into a folder, in a job.
+    SaveBench {
+        /// The folder.
+        folder: PathBuf,
+        /// Replace files that are there.
+        force: bool,
+    },
     /// Take a message away.
     Dismiss(usize),
     /// Put text on the clipboard.

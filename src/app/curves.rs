@@ -6,11 +6,12 @@ use std::sync::Arc;
 use egui::cache::{ComputerMut, FrameCache};
 use egui::{Align2, Color32, Grid, RichText, Sense, Stroke, Ui, vec2};
 use egui_plot::{
-    AxisHints, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Text, VLine,
+    AxisHints, GridMark, HoverPosition, Line, LineStyle, PlotPoint, PlotPoints, Text, VLine,
 };
 
 use super::action::Action;
 use super::model::Model;
+use super::plots::still_plot;
 use super::state::CurvesState;
 use super::story::incidence_rad;
 use super::theme;
@@ -255,18 +256,10 @@ fn plot_ui(
     let heights = shown.iter().flat_map(|(_, c)| c.points.iter().map(|p| p.y));
     let highest = heights.fold(1.0, f64::max);
     let top = highest * TOP;
-    let plot = Plot::new("curves")
+    let plot = still_plot("curves")
         // The last number of the axis stands out by half its width.
         .width(width - 14.0)
         .height(height)
-        .allow_zoom(false)
-        .allow_drag(false)
-        .allow_scroll(false)
-        .allow_axis_zoom_drag(false)
-        .allow_boxed_zoom(false)
-        .allow_double_click_reset(false)
-        .sense(Sense::hover())
-        .show_crosshair(false)
         .default_x_bounds(0.0, 90.0)
         .x_grid_spacer(|_| marks(90.0, 15.0))
         .y_grid_spacer(move |_| marks(top, if top > 2.0 { 1.0 } else { 0.25 }))

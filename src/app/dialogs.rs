@@ -29,6 +29,8 @@ pub enum Dialog {
     Picture(PictureDialog),
     /// The environment for another program.
     Export(Box<Export>),
+    /// Where to write what the laboratory has measured.
+    SaveBench(SaveDialog),
     /// How the map in a file is read.
     Reading(MapFile),
 }
@@ -56,7 +58,7 @@ impl Dialog {
     pub fn path_mut(&mut self) -> Option<&mut String> {
         Some(match self {
             Self::Open(path) | Self::OpenBall(path) => path,
-            Self::SaveScene(fields) => &mut fields.path,
+            Self::SaveScene(fields) | Self::SaveBench(fields) => &mut fields.path,
             Self::Picture(fields) => &mut fields.path,
             Self::Export(export) => &mut export.path,
             Self::Reading(_) => return None,
@@ -70,7 +72,7 @@ impl Dialog {
         }
         match &mut self {
             Self::Open(_) | Self::OpenBall(_) | Self::Reading(_) => {}
-            Self::SaveScene(fields) => fields.force = true,
+            Self::SaveScene(fields) | Self::SaveBench(fields) => fields.force = true,
             Self::Picture(fields) => fields.force = true,
             Self::Export(export) => export.force = true,
         }
@@ -118,6 +120,7 @@ pub fn dialog_ui(ctx: &egui::Context, model: &mut Model<'_>, dialog: &mut Option
             Dialog::Open(path) => open_ui(ui, model, path),
             Dialog::OpenBall(path) => open_ball_ui(ui, model, path),
             Dialog::SaveScene(fields) => save_ui(ui, model, fields),
+            Dialog::SaveBench(fields) => save_bench_ui(ui, model, fields),
             Dialog::Picture(fields) => picture_ui(ui, model, fields),
             Dialog::Export(export) => export_ui(ui, model, export),
             Dialog::Reading(file) => reading_ui(ui, model, file),
@@ -187,6 +190,20 @@ fn save_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut SaveDialog) -> bool 
     buttons_ui(ui, "Save", !path.is_empty(), is_entered, || {
         model.push(Command::SaveScene {
             path: PathBuf::from(path),
+            force: fields.force,
+        });
+    })
+}
+
+fn save_bench_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut SaveDialog) -> bool {
+    ui.heading("Save the measurements");
+    ui.label("A folder for bench.json, bench.csv, bench.svg, bench.png and bench_machine.json, as \"sixfold bench --out\" writes them; it is made if it is not there.");
+    let is_entered = path_ui(ui, model, &mut fields.path);
+    ui.checkbox(&mut fields.force, "replace files that exist");
+    let path = fields.path.trim();
+    buttons_ui(ui, "Save", !path.is_empty(), is_entered, || {
+        model.push(Command::SaveBench {
+            folder: PathBuf::from(path),
             force: fields.force,
         });
     })

@@ -1,6 +1,8 @@
 //! The explorer: state, renderer and jobs behind one window, or behind a picture drawn without one.
 
+mod ask;
 mod jobs;
+mod labs;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -17,6 +19,7 @@ use super::files::Opened;
 use super::frame::frame_of;
 use super::history::History;
 use super::job::Job;
+use super::laboratory::{self, Used};
 use super::labs::Labs;
 use super::model::{Message, Model, Surroundings};
 use super::object::{Jobs, ObjectData};
@@ -53,6 +56,9 @@ pub struct Explorer {
     seen: Vec<Pane>,
     /// Pixels of the microscope's picture that was drawn last.
     microscope_px: Option<[usize; 2]>,
+    /// The views that were laid out last, with their size in pixels.
+    laid_out: Vec<(ViewKey, [u32; 2])>,
+    errors_wanted: Option<laboratory::Wanted>,
     surroundings: Option<Surroundings>,
     loading: Option<Job<Result<Loading, Refusal>>>,
     opening: Option<Job<Result<Opened, String>>>,
@@ -95,6 +101,8 @@ impl Explorer {
             labs: Labs::default(),
             seen: Vec::new(),
             microscope_px: None,
+            laid_out: Vec::new(),
+            errors_wanted: None,
             surroundings: None,
             loading: None,
             opening: None,
@@ -118,46 +126,6 @@ impl Explorer {
             gpu,
             state,
         }
-    }
-
-    /// The state that is shown.
-    pub fn state(&self) -> &AppState {
-        &self.state
-    }
-
-    /// The surroundings that are shown; `None` until the first ones are there.
-    pub fn surroundings(&self) -> Option<&Surroundings> {
-        self.surroundings.as_ref()
-    }
-
-    /// Frames drawn so far.
-    pub fn frames(&self) -> u64 {
-        self.frames
-    }
-
-    /// The device is gone: nothing can be drawn any more.
-    pub fn is_lost(&self) -> bool {
-        self.gpu.is_lost()
-    }
-
-    /// The messages that are shown.
-    pub fn messages(&self) -> &[Message] {
-        &self.messages
-    }
-
-    /// What the laboratories have measured.
-    pub fn labs(&self) -> &Labs {
-        &self.labs
-    }
-
-    /// What the renderer did last.
-    pub fn report(&self) -> &crate::gpu::Report {
-        self.renderer.report()
-    }
-
-    /// The device.
-    pub fn gpu(&self) -> &Gpu {
-        &self.gpu
     }
 
     /// True while a job runs or a map waits to be drawn.
@@ -236,9 +204,11 @@ impl Explorer {
         self.draw_views(&ctx, &laid_out);
         self.measure_loss(&ctx);
         self.look(&ctx);
+        self.picture_errors(&ctx);
         self.measure_pace(&ctx);
         // What was just changed is seen in the next frame; a still window asks for none.
-        let draws_on = self.pending && !self.waits;
+        let draws_on = (self.pending && !self.waits) || self.laid_out != laid_out;
+        self.laid_out = laid_out;
         if (any && before != self.state) || draws_on || self.texel_color.is_waiting() {
             ctx.request_repaint();
         } else if self.waits {
@@ -268,6 +238,8 @@ impl Explorer {
     ) -> (Vec<Command>, Vec<(ViewKey, [u32; 2])>) {
         let adapter = self.gpu.name();
         let jobs = self.jobs();
+        let (state, map) = (&self.state, self.state.mapping);
+        let pixels = laboratory::largest_pixels_per_texel(state, &self.laid_out, map);
         let mut model = Model {
             state: &self.state,
             history: &self.history,
@@ -276,6 +248,9 @@ impl Explorer {
             surroundings: self.surroundings.as_ref(),
             story: story::steps_if_open(&self.state, self.object.target()),
             labs: &self.labs,
+            used: Used::of(state, self.labs.bench.rows(), map, pixels),
+            pixels_per_texel: pixels,
+            errors_wanted: None,
             seen: Vec::new(),
             microscope_px: None,
             texel_color: self.probed,
@@ -292,9 +267,9 @@ impl Explorer {
             laid_out: Vec::new(),
         };
         show(&mut model);
-        let (commands, laid_out, seen) = (model.commands, model.laid_out, model.seen);
+        let (commands, laid_out) = (model.commands, model.laid_out);
         self.microscope_px = model.microscope_px;
-        self.seen = seen;
+        (self.seen, self.errors_wanted) = (model.seen, model.errors_wanted);
         (commands, laid_out)
     }
 
@@ -393,6 +368,8 @@ impl Explorer {
             }
             Command::Export(export) => self.export(ctx, *export),
             Command::Cancel(id) => self.cancel(id),
+            Command::MeasureEvaluators => self.measure_evaluators(ctx),
+            Command::SaveBench { folder, force } => self.save_bench(ctx, folder, force),
             Command::MeasureLoss => self.labs.loss.try_again(),
             Command::MeasureStability => self.measure_stability(ctx),
             Command::Dismiss(index) => {

@@ -127,6 +127,7 @@ pub fn ask(dialog: &Dialog) -> Option<PathBuf> {
             .pick_file(),
         Dialog::Export(export) => files.set_file_name(&export.path).save_file(),
         Dialog::SaveScene(_) => files.set_file_name(SaveDialog::default().path).save_file(),
+        Dialog::SaveBench(_) => files.pick_folder(),
         Dialog::Reading(_) => None,
         Dialog::Picture(_) => files
             .set_file_name(PictureDialog::default().path)

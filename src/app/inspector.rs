@@ -4,6 +4,7 @@ use egui::{Color32, Grid, RichText, Ui};
 
 use super::action::Action;
 use super::command::Command;
+use super::laboratory;
 use super::model::Model;
 use super::probe::texel_of;
 use super::state::{InspectorState, Precision};
@@ -98,6 +99,9 @@ fn readout_ui(ui: &mut Ui, model: &mut Model<'_>) {
                 "texel",
                 format!("{}, {} of {}×{}", texel[0], texel[1], size[0], size[1]),
             );
+            for (name, value) in laboratory::readout(model) {
+                row(name, value);
+            }
             let solid = mapping.texel_solid_angle_sr(point.chart, texel, size);
             row("solid angle", format!("{:.4} µsr", solid * 1e6));
             row("texel, linear light", color_text(model.texel_color));

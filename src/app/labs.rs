@@ -2,6 +2,7 @@
 
 use egui::Context;
 
+use super::laboratory::BenchLab;
 use super::loss::LossLab;
 use super::model::JobLine;
 use super::stability::StabilityLab;
@@ -23,15 +24,17 @@ pub struct Labs {
     pub loss: LossLab,
     /// Where evaluators break.
     pub stability: StabilityLab,
+    /// Run time against error.
+    pub bench: BenchLab,
 }
 
 impl Labs {
-    fn all(&self) -> [&dyn Lab; 2] {
-        [&self.loss, &self.stability]
+    fn all(&self) -> [&dyn Lab; 3] {
+        [&self.loss, &self.bench, &self.stability]
     }
 
-    fn all_mut(&mut self) -> [&mut dyn Lab; 2] {
-        [&mut self.loss, &mut self.stability]
+    fn all_mut(&mut self) -> [&mut dyn Lab; 3] {
+        [&mut self.loss, &mut self.bench, &mut self.stability]
     }
 
     /// Takes in what the jobs have brought.

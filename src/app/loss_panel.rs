@@ -1,13 +1,15 @@
 //! The pane of the loss laboratory: what is measured, the numbers, and the residual.
 
-use egui::{Color32, ComboBox, DragValue, Rect, RichText, Sense, Ui, vec2};
+use egui::{Color32, DragValue, Rect, RichText, Sense, Ui, vec2};
 
 use super::action::Action;
 use super::command::Command;
+use super::lists::list_ui;
 use super::loss::{Measured, Shown};
 use super::map_panel::{paint_chart_names, paint_probe, place_of, pointer, window_of};
 use super::marks::ring;
 use super::model::Model;
+use super::numbers::significant;
 use super::state::{LOSS_ROWS, LossState, MOST_MAGNIFIED};
 use super::theme;
 use crate::imaging::compare::Worst;
@@ -111,31 +113,6 @@ fn map_ui(ui: &mut Ui, label: &str, mapping: &mut MappingId, rows: &mut u32) {
         .on_hover_text("Rows of a chart: drag, or type");
 }
 
-/// A list to choose from, with its name before it.
-fn list_ui<T: PartialEq + Clone>(
-    ui: &mut Ui,
-    label: &str,
-    now: &mut T,
-    options: impl IntoIterator<Item = T>,
-    name: impl Fn(&T) -> String,
-) {
-    /// Width of a short name; longer ones take more where there is room.
-    const WIDTH: f32 = 90.0;
-    let text = ui.label(label);
-    ComboBox::from_id_salt(("loss", label))
-        .width(WIDTH.min(ui.available_width()))
-        .height(420.0)
-        .selected_text(name(now))
-        .show_ui(ui, |ui| {
-            for option in options {
-                let title = name(&option);
-                ui.selectable_value(now, option, title);
-            }
-        })
-        .response
-        .labelled_by(text.id);
-}
-
 /// The numbers of a measurement. Speed stands beside its error.
 fn numbers_ui(ui: &mut Ui, model: &mut Model<'_>, shown: &Shown) {
     let (settings, measured) = (&shown.wanted.settings, &shown.measured);
@@ -146,7 +123,7 @@ fn numbers_ui(ui: &mut Ui, model: &mut Model<'_>, shown: &Shown) {
         let button = egui::Button::new(worst_text(settings, worst)).wrap();
         let response = ui.add(button);
         if response.on_hover_text("Move the probe there").clicked() {
-            move_probe(model, worst);
+            model.keep_probe(worst.dir);
         }
     }
     let times = if measured.is_lossless() {
@@ -210,26 +187,6 @@ fn worst_text(settings: &LossState, worst: &Worst) -> String {
     )
 }
 
-/// A positive number with three digits that count.
-fn significant(x: f64) -> String {
-    if (1e-3..1e4).contains(&x) {
-        let places = (2 - x.log10().floor() as i32).max(0) as usize;
-        format!("{x:.places$}")
-    } else {
-        format!("{x:.2e}")
-    }
-}
-
-fn move_probe(model: &mut Model<'_>, worst: &Worst) {
-    model.push(Action::SetProbe {
-        dir: worst.dir.map(|c| c as f32),
-        eye_ray: None,
-    });
-    if model.state.probe_follows {
-        model.push(Action::FollowPointer(false));
-    }
-}
-
 /// The residual, seen as the panel of its mapping is: what is zoomed there is zoomed here.
 fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, size: egui::Vec2) {
     if size.x < 1.0 || size.y < 1.0 {
@@ -253,7 +210,7 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, size: egui::Vec2) {
         .interact_pointer_pos()
         .filter(|_| response.clicked());
     match (worst_at, clicked) {
-        (Some((worst, at)), Some(pos)) if at.distance(pos) < GRIP => move_probe(model, &worst),
+        (Some((worst, at)), Some(pos)) if at.distance(pos) < GRIP => model.keep_probe(worst.dir),
         _ => pointer(ui, model, view, &window, &response),
     }
     let painter = ui.painter_at(rect);
@@ -269,24 +226,5 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, size: egui::Vec2) {
     }
     if model.state.overlays.probe {
         paint_probe(&painter, model, mapping, &window);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_three_digits_that_count() {
-        for (x, text) in [
-            (0.001_234, "0.00123"),
-            (0.5, "0.500"),
-            (12.345, "12.3"),
-            (1234.5, "1234"),
-            (2.5e-7, "2.50e-7"),
-            (65504.0, "6.55e4"),
-        ] {
-            assert_eq!(significant(x), text);
-        }
     }
 }

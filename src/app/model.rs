@@ -7,9 +7,11 @@ use crate::imaging::{BadTexels, Environment, Loaded};
 use crate::mapping::MappingId;
 use crate::scene::Target;
 
+use super::action::Action;
 use super::arrangement::Pane;
 use super::command::Command;
 use super::history::History;
+use super::laboratory::{Used, Wanted};
 use super::labs::Labs;
 use super::pace::Paces;
 use super::reading::Reading;
@@ -72,6 +74,12 @@ pub struct Model<'a> {
     pub story: Vec<StoryStep>,
     /// What the laboratories have measured.
     pub labs: &'a Labs,
+    /// The evaluator that is used for the mapping that is looked up.
+    pub used: Option<Used<'a>>,
+    /// Pixels of the screen that a texel of that mapping takes, where it takes most.
+    pub pixels_per_texel: f64,
+    /// The picture of errors that is seen.
+    pub errors_wanted: Option<Wanted>,
     /// The panes that are drawn: what only a hidden one would show is not computed.
     pub seen: Vec<Pane>,
     /// Pixels of the microscope's picture, where it is laid out.
@@ -106,6 +114,17 @@ impl Model<'_> {
     /// Asks for something.
     pub fn push(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());
+    }
+
+    /// Moves the probe to a direction and keeps it there.
+    pub fn keep_probe(&mut self, dir: [f64; 3]) {
+        self.push(Action::SetProbe {
+            dir: dir.map(|c| c as f32),
+            eye_ray: None,
+        });
+        if self.state.probe_follows {
+            self.push(Action::FollowPointer(false));
+        }
     }
 
     /// The step of the ray story that is shown, counted from 0, and what it tells.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::laboratory::Measured;
 use super::model::Surroundings;
 use super::offscreen::Offscreen;
 use super::state::{AppState, Overlays};
@@ -92,14 +93,21 @@ pub fn make(
     request: &PictureRequest,
     progress: &Progress,
 ) -> Result<Picture, String> {
+    make_with(gpu, state, surroundings, None, request, progress)
+}
+
+/// The same with what the laboratory has measured, which is no part of a scene.
+pub fn make_with(
+    gpu: &Gpu,
+    state: &AppState,
+    surroundings: Surroundings,
+    measured: Option<Arc<Measured>>,
+    request: &PictureRequest,
+    progress: &Progress,
+) -> Result<Picture, String> {
     let own = own_device(gpu)?;
-    let picture = draw(
-        own.as_ref().unwrap_or(gpu),
-        state,
-        surroundings,
-        request,
-        progress,
-    )?;
+    let gpu = own.as_ref().unwrap_or(gpu);
+    let picture = draw_with(gpu, state, surroundings, measured, request, progress)?;
     if let Destination::File { path, force } = &request.to {
         let [width, height] = picture.size;
         let scene = state.to_json().map_err(|error| error.to_string())?;
@@ -169,6 +177,17 @@ pub fn draw(
     request: &PictureRequest,
     progress: &Progress,
 ) -> Result<Picture, String> {
+    draw_with(gpu, state, surroundings, None, request, progress)
+}
+
+fn draw_with(
+    gpu: &Gpu,
+    state: &AppState,
+    surroundings: Surroundings,
+    measured: Option<Arc<Measured>>,
+    request: &PictureRequest,
+    progress: &Progress,
+) -> Result<Picture, String> {
     let size = request.size;
     if size.iter().any(|n| !(1..=MAX_SIDE).contains(n)) {
         return Err(format!(
@@ -182,6 +201,9 @@ pub fn draw(
     }
     let mut screen = Offscreen::new(gpu, state, request.what, size)?;
     screen.show_complete(surroundings)?;
+    if let Some(measured) = measured {
+        screen.explorer.labs_mut().bench.show(measured);
+    }
     for pass in 0..LAYOUT_PASSES {
         check_cancelled(progress)?;
         progress.step(pass, LAYOUT_PASSES + 1);

@@ -1,6 +1,7 @@
 //! What the window shows, as plain data: saved scenes, undo and exports are copies of it. What one pane shows is beside it.
 
 mod form;
+mod laboratory;
 mod loss;
 mod optics;
 mod stability;
@@ -24,13 +25,14 @@ use super::objects::target_of;
 use super::viewport::looked_up;
 
 pub use form::FormState;
+pub use laboratory::{BUDGET_TEXELS, Column, LaboratoryState};
 pub use loss::{LOSS_ROWS, LossState, MOST_MAGNIFIED};
 pub use optics::{CurvesState, StoryKind, StoryState};
 pub use stability::{LENGTHS, StabilityState};
 pub use views::{InspectorState, Overlays, PanelState, Precision, ZOOM_RANGE};
 
 /// Version of the saved form. A scene of a later version is refused; earlier ones are migrated by [`AppState::from_json`].
-pub const SCHEMA: u32 = 4;
+pub const SCHEMA: u32 = 5;
 
 /// Everything that a saved scene holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -93,6 +95,8 @@ pub struct AppState {
     pub loss: LossState,
     /// Where evaluators break.
     pub stability: StabilityState,
+    /// Run time against error, and which evaluators are used; scenes before form 5 know none.
+    pub laboratory: LaboratoryState,
     /// The controls at the left are shown.
     pub controls_open: bool,
     /// What the inspector shows.
@@ -192,6 +196,7 @@ impl Default for AppState {
             story: StoryState::default(),
             loss: LossState::default(),
             stability: StabilityState::default(),
+            laboratory: LaboratoryState::default(),
             controls_open: true,
             inspector: InspectorState::default(),
         }
@@ -257,6 +262,7 @@ impl AppState {
         self.form = self.form.sanitized();
         self.loss = self.loss.sanitized();
         self.stability = self.stability.sanitized();
+        self.laboratory = self.laboratory.sanitized();
         self.probe = unit(self.probe);
         self.eye_ray = self.eye_ray.filter(|eye| {
             let ray = eye.ray();
@@ -313,6 +319,7 @@ impl AppState {
             Pane::Story => self.story.open,
             Pane::Loss => self.loss.open,
             Pane::Stability => self.stability.open,
+            Pane::Laboratory => self.laboratory.open,
             Pane::Map(mapping) => self.panel(mapping).open,
         }
     }
@@ -325,6 +332,7 @@ impl AppState {
             Pane::Story => Some(&mut self.story.open),
             Pane::Loss => Some(&mut self.loss.open),
             Pane::Stability => Some(&mut self.stability.open),
+            Pane::Laboratory => Some(&mut self.laboratory.open),
             Pane::Map(mapping) => Some(&mut self.panel_mut(mapping)?.open),
         }
     }

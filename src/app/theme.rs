@@ -69,3 +69,63 @@ pub fn install(ctx: &egui::Context) {
         style.visuals = visuals;
     });
 }
+
+/// Where an evaluator has no result: no colour of [`scale`].
+pub const HOLE: Color32 = Color32::from_rgb(235, 60, 60);
+
+/// A colour for a share of the largest value, in [0, 1]: viridis (Smith and van der Walt 2015, CC0), whose lightness grows evenly
+/// and which is read with every kind of colour vision; eight straight pieces of it.
+pub fn scale(share: f32) -> Color32 {
+    const VIRIDIS: [[u8; 3]; 9] = [
+        [68, 1, 84],
+        [71, 44, 122],
+        [59, 81, 139],
+        [44, 113, 142],
+        [33, 144, 141],
+        [39, 173, 129],
+        [92, 200, 99],
+        [170, 220, 50],
+        [253, 231, 37],
+    ];
+    let last = VIRIDIS.len() - 1;
+    let place = if share.is_finite() {
+        share.clamp(0.0, 1.0) * last as f32
+    } else {
+        last as f32
+    };
+    let from = (place as usize).min(last - 1);
+    let [a, b] = [VIRIDIS[from], VIRIDIS[from + 1]];
+    let mixed = |k: usize| {
+        let [a, b] = [a[k], b[k]].map(f32::from);
+        (a + (b - a) * (place - from as f32)).round() as u8
+    };
+    Color32::from_rgb(mixed(0), mixed(1), mixed(2))
+}
+
+/// Colours of series that are told apart by their markers' shapes, too: Okabe and Ito's, the dark blue lightened.
+pub const SERIES: [Color32; 7] = [
+    VECTORS[0],
+    VECTORS[1],
+    VECTORS[2],
+    TEXEL,
+    Color32::from_rgb(235, 110, 40),
+    REFRACTED,
+    Color32::from_rgb(110, 150, 255),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scale_grows_lighter_from_end_to_end() {
+        let light = |share: f32| {
+            let [r, g, b, _] = scale(share).to_array().map(f32::from);
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        let steps: Vec<f32> = (0..=64).map(|k| light(k as f32 / 64.0)).collect();
+        assert!(steps.windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!(scale(f32::NAN), scale(1.0));
+        assert_eq!(scale(-1.0), scale(0.0));
+    }
+}

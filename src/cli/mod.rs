@@ -90,7 +90,7 @@ enum CliError {
     #[error(transparent)]
     Convert(#[from] convert::ConvertError),
     #[error(transparent)]
-    Lab(#[from] bench::LabError),
+    Lab(#[from] crate::lab::files::LabError),
     #[error(transparent)]
     Device(#[from] EvaluatorError),
     #[error("standard input cannot be read: {0}")]

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::bar::Bar;
-use super::bench::{LabError, prepare, write};
 use super::devices::{DeviceKind, explain, wanted};
 use super::{CliError, FAILED};
 use crate::imaging::Progress;
+use crate::lab::files::{LabError, prepare, write};
 use crate::lab::report;
 use crate::lab::stress::{Plan, stress};
 use crate::mapping::{Device, MappingId};
@@ -65,7 +65,7 @@ pub(super) fn run(
         let texts = [report::json(rows), report::csv(rows)];
         for (name, text) in files.iter().zip(texts) {
             let text = text.map_err(LabError::Words)?;
-            write(&folder.join(name), options.force, text.as_bytes())?;
+            write(folder, name, options.force, text.as_bytes())?;
         }
     }
     out.write_all(report::stress_table(rows, options.all).as_bytes())

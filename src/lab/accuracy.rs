@@ -59,6 +59,44 @@ impl Errors {
     }
 }
 
+/// How far one chart point is off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Off {
+    /// Angle between the direction and the one that the point stands for, in radians.
+    pub rad: f64,
+    /// Largest difference of a coordinate, in units as [`Errors::max_ulp`].
+    pub ulp: f64,
+    /// Distance in texels.
+    pub texels: f64,
+}
+
+impl Off {
+    /// Of a `point` that should be `exact`, the reference's for `dir`, at `texels` texels along a chart's height; `None`
+    /// where the point is none.
+    pub fn of(
+        map: MappingId,
+        dir: [f64; 3],
+        exact: ChartPoint<f64>,
+        point: ChartPoint<f32>,
+        texels: u32,
+    ) -> Option<Self> {
+        let rad = angle_rad(direction_of(map, point.to_f64())?, dir);
+        let step = [f64::from(point.u) - exact.u, f64::from(point.v) - exact.v];
+        let is_near = point.chart == exact.chart && step.iter().all(|c| c.abs() < 0.25);
+        // On the other side of a seam coordinates cannot be compared: the angle stands for them.
+        let (ulp, texels) = if is_near {
+            let [across, down] = [map.info().aspect, 1.0].map(|c| c * f64::from(texels));
+            (
+                step[0].abs().max(step[1].abs()) / ULP,
+                (step[0] * across).hypot(step[1] * down),
+            )
+        } else {
+            (0.0, rad / texel_rad(map, texels))
+        };
+        Some(Self { rad, ulp, texels })
+    }
+}
+
 /// What the directions' chart points should be, computed once for all evaluators.
 pub struct ForwardTruth {
     map: MappingId,
@@ -85,26 +123,12 @@ impl ForwardTruth {
         let (dirs, points) = (self.dirs.view(), points.view());
         let mut errors = Errors::NONE;
         for (k, exact) in self.exact.iter().enumerate() {
-            let (dir, point) = (dirs.at(k).to_f64(), points.at(k));
-            let back = direction_of(self.map, point.to_f64());
-            let (Some(back), Some(exact)) = (back, exact) else {
-                errors.miss(dir);
-                continue;
-            };
-            let rad = angle_rad(back, dir);
-            let step = [f64::from(point.u) - exact.u, f64::from(point.v) - exact.v];
-            let is_near = point.chart == exact.chart && step.iter().all(|c| c.abs() < 0.25);
-            // On the other side of a seam coordinates cannot be compared: the angle stands for them.
-            let (ulp, texels) = if is_near {
-                let [across, down] = [self.map.info().aspect, 1.0].map(|c| c * f64::from(texels));
-                (
-                    step[0].abs().max(step[1].abs()) / ULP,
-                    (step[0] * across).hypot(step[1] * down),
-                )
-            } else {
-                (0.0, rad / texel_rad(self.map, texels))
-            };
-            errors.see(rad, ulp, texels, dir);
+            let dir = dirs.at(k).to_f64();
+            let off = exact.and_then(|exact| Off::of(self.map, dir, exact, points.at(k), texels));
+            match off {
+                Some(Off { rad, ulp, texels }) => errors.see(rad, ulp, texels, dir),
+                None => errors.miss(dir),
+            }
         }
         errors.over(self.exact.len())
     }

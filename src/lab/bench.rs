@@ -5,7 +5,7 @@ mod shader;
 
 use std::time::Duration;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::accuracy::{Errors, ForwardTruth, InverseTruth};
 use super::clock::Clock;
@@ -77,7 +77,7 @@ impl Plan {
 }
 
 /// Which way an evaluator is run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Way {
     /// Direction to chart point.
@@ -146,7 +146,27 @@ pub const SHADER: &str = "wgsl";
 /// What stands for the processor as a device.
 pub const CPU: &str = "cpu";
 
+/// Mapping, direction, inputs, device, threads and directions at a time.
+type Circumstances<'a> = (&'static str, Way, Inputs, &'a str, usize, usize);
+
 impl Row {
+    /// Everything but the evaluator and its instructions: what is alike here can be compared.
+    pub fn circumstances(&self) -> Circumstances<'_> {
+        (
+            self.mapping,
+            self.direction,
+            self.inputs,
+            &self.device,
+            self.threads,
+            self.n,
+        )
+    }
+
+    /// Largest error in texels on charts of so many rows: the error on the sphere is the same, a texel is as much smaller.
+    pub fn error_texels_at(&self, rows: u32) -> f64 {
+        self.max_error_texels * f64::from(rows) / f64::from(self.texels.max(1))
+    }
+
     /// Measured as evaluators are compared: with few directions at a time by one thread, or on an adapter.
     pub fn is_comparable(&self) -> bool {
         self.isa == SHADER || self.threads == 1 && self.ns_latency.is_some()
@@ -209,26 +229,18 @@ pub fn bench(plan: &Plan, device: &dyn Device, progress: &Progress) -> Outcome<R
 
 /// Marks the rows that are on the front of their circumstances.
 pub fn mark_front(rows: &mut [Row]) {
-    type Circumstances = (&'static str, Way, Inputs, String, usize, usize);
-    let key = |row: &Row| -> Circumstances {
-        (
-            row.mapping,
-            row.direction,
-            row.inputs,
-            row.device.clone(),
-            row.threads,
-            row.n,
-        )
-    };
-    let mut keys: Vec<Circumstances> = rows.iter().map(key).collect();
-    keys.dedup();
-    for (at, circumstances) in keys.iter().enumerate() {
-        if keys[..at].contains(circumstances) {
-            continue;
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (k, row) in rows.iter().enumerate() {
+        let is_of = |group: &&mut Vec<usize>| {
+            let first = group.first().and_then(|first| rows.get(*first));
+            first.is_some_and(|first| first.circumstances() == row.circumstances())
+        };
+        match groups.iter_mut().find(is_of) {
+            Some(group) => group.push(k),
+            None => groups.push(vec![k]),
         }
-        let members: Vec<usize> = (0..rows.len())
-            .filter(|k| key(&rows[*k]) == *circumstances)
-            .collect();
+    }
+    for members in groups {
         // A form with holes is no answer, however fast.
         let cost = |k: &usize| match &rows[*k] {
             row if row.holes > 0 => (f64::NAN, f64::NAN),

@@ -1,12 +1,12 @@
 //! What evaluators are measured on.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::mapping::{Coverage, DirList, MappingId, PointList};
 use crate::math::inputs::Random;
 
 /// Families of directions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Inputs {
     /// Even over the sphere, in no order.

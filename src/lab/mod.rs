@@ -5,9 +5,13 @@
 
 pub mod accuracy;
 pub mod bench;
+pub mod choice;
 pub mod clock;
 pub mod devices;
 pub mod drawing;
+pub mod error_map;
+pub mod files;
+pub mod filter;
 pub mod front;
 pub mod inputs;
 pub mod machine;

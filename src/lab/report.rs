@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::bench::Row;
+use super::filter::is_widest;
 use super::stress;
 
 /// One JSON array, a row a line.
@@ -103,21 +104,10 @@ pub fn bench_table(rows: &[Row]) -> String {
         "ULP",
         "TEXELS",
     ];
-    let widest = |row: &&Row| {
-        row.is_comparable()
-            && row.inputs == super::inputs::Inputs::Random
-            && !rows.iter().any(|other| {
-                other.ns_latency.is_some()
-                    && (
-                        other.mapping,
-                        other.evaluator,
-                        other.direction,
-                        other.inputs,
-                    ) == (row.mapping, row.evaluator, row.direction, row.inputs)
-                    && order(other.isa) > order(row.isa)
-            })
-    };
-    let mut shown: Vec<&Row> = rows.iter().filter(widest).collect();
+    let is_few = |row: &&Row| row.is_comparable() && row.inputs == super::inputs::Inputs::Random;
+    let few: Vec<&Row> = rows.iter().filter(is_few).collect();
+    let widest = few.iter().copied().filter(|row| is_widest(row, &few));
+    let mut shown: Vec<&Row> = widest.collect();
     // The mappings stay in their order: the sort is stable within each.
     let place = |row: &Row| rows.iter().position(|other| other.mapping == row.mapping);
     shown.sort_by(|a, b| {
@@ -221,9 +211,4 @@ fn stress_cells(row: &stress::Row, family: &str, rows: &[&stress::Row]) -> [Stri
         beside(6),
         format!("{:.1}", worst[7]),
     ]
-}
-
-/// Place of an instruction set among the others, by its name.
-fn order(isa: &str) -> Option<usize> {
-    crate::math::Isa::ALL.iter().position(|set| set.id() == isa)
 }

@@ -1,5 +1,7 @@
 //! Runs an evaluator on slices, by one thread or by all.
 
+use serde::{Deserialize, Serialize};
+
 use crate::mapping::evaluator::{Forward, Inverse};
 use crate::mapping::{Dirs, DirsMut, Points, PointsMut};
 use crate::math::Isa;
@@ -8,7 +10,8 @@ use crate::math::Isa;
 const PIECE: usize = 1 << 14;
 
 /// Threads of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Threads {
     /// The caller's.
     One,

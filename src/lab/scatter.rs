@@ -55,8 +55,8 @@ pub fn scatter(rows: &[Row]) -> Drawing {
             .filter(|row| row.mapping == *map)
             .collect();
         let axes = [
-            Axis::over(rows.iter().map(|row| row.ns)),
-            Axis::over(rows.iter().map(|row| row.max_error_rad)),
+            LogAxis::over(rows.iter().map(|row| row.ns)),
+            LogAxis::over(rows.iter().map(|row| row.max_error_rad)),
         ];
         field(&mut drawing, corner, map, axes, &rows);
     }
@@ -64,16 +64,17 @@ pub fn scatter(rows: &[Row]) -> Drawing {
 }
 
 /// A logarithmic axis.
-#[derive(Clone, Copy)]
-struct Axis {
-    /// Decimal logarithms of its ends.
-    low: f64,
-    high: f64,
+#[derive(Clone, Copy, Debug)]
+pub struct LogAxis {
+    /// Decimal logarithm of its lower end.
+    pub low: f64,
+    /// Decimal logarithm of its upper end.
+    pub high: f64,
 }
 
-impl Axis {
+impl LogAxis {
     /// A little more than the values.
-    fn over(values: impl Iterator<Item = f64> + Clone) -> Self {
+    pub fn over(values: impl Iterator<Item = f64> + Clone) -> Self {
         const ROOM: f64 = 0.1;
         let exponents = values.map(f64::log10);
         let low = exponents.clone().fold(f64::INFINITY, f64::min);
@@ -96,7 +97,7 @@ impl Axis {
     }
 
     /// Where lines are drawn: 1, 2 and 5 times the powers of ten, or those alone where there are many.
-    fn marks(self) -> Vec<f64> {
+    pub fn marks(self) -> Vec<f64> {
         let steps: &[f64] = if self.high - self.low > 3.0 {
             &[1.0]
         } else {
@@ -114,7 +115,7 @@ fn field(
     drawing: &mut Drawing,
     corner: [f64; 2],
     map: &str,
-    [time, error]: [Axis; 2],
+    [time, error]: [LogAxis; 2],
     rows: &[&Row],
 ) {
     let [left, top, right, bottom] = MARGIN;
@@ -175,16 +176,10 @@ fn field(
     // Of the processor, then of the adapter.
     let fronts = [false, true].map(front);
     for front in &fronts {
-        // A step: between two of the front nothing is nearer than the faster one.
-        let mut steps = Vec::new();
-        for pair in front.windows(2) {
-            let (a, b) = (pair[0], pair[1]);
-            steps.extend([
-                place(a.ns, a.max_error_rad),
-                place(b.ns, a.max_error_rad),
-                place(b.ns, b.max_error_rad),
-            ]);
-        }
+        let steps: Vec<[f64; 2]> = front_steps(front)
+            .into_iter()
+            .map(|[ns, rad]| place(ns, rad))
+            .collect();
         drawing.line(&steps, 1.5, FRONT);
     }
     for row in rows {
@@ -201,4 +196,18 @@ fn field(
             lowest = top + 10.0;
         }
     }
+}
+
+/// The line through a front, the fastest first, as (nanoseconds, radians). It is a stair: between two of the front nothing is nearer than the
+/// faster one.
+pub fn front_steps(front: &[&Row]) -> Vec<[f64; 2]> {
+    let corner = |pair: &[&Row]| {
+        let (a, b) = (pair[0], pair[1]);
+        [
+            [a.ns, a.max_error_rad],
+            [b.ns, a.max_error_rad],
+            [b.ns, b.max_error_rad],
+        ]
+    };
+    front.windows(2).flat_map(corner).collect()
 }

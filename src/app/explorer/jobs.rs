@@ -7,12 +7,10 @@ use egui::Context;
 
 use super::Explorer;
 use crate::app::action::Action;
-use crate::app::arrangement::Pane;
 use crate::app::dialogs::{Dialog, ball_from};
 use crate::app::export::Export;
 use crate::app::files::{self, Opened};
 use crate::app::job::{Job, Outcome};
-use crate::app::loss::Wanted;
 use crate::app::model::{JobLine, Surroundings};
 use crate::app::object::{BodyKey, Jobs, News, job_line};
 use crate::app::panes;
@@ -48,13 +46,14 @@ impl Ready {
 }
 
 /// What an errand leaves behind.
+#[derive(Default)]
 pub(super) struct Errand {
     /// For the user.
-    message: String,
+    pub(super) message: String,
     /// For the clipboard.
-    picture: Option<egui::ColorImage>,
+    pub(super) picture: Option<egui::ColorImage>,
     /// Texels a second that were exported.
-    rate: Option<f64>,
+    pub(super) rate: Option<f64>,
 }
 
 /// Writes a scene as text.
@@ -149,13 +148,14 @@ impl Explorer {
             return;
         };
         let (gpu, scene) = (self.gpu.clone(), self.scene());
+        let measured = self.labs.bench.measured().cloned();
         self.send(ctx, "drawing the picture", move |progress| {
-            let picture = picture::make(&gpu, &scene, surroundings, &request, progress)?;
+            let made = picture::make_with(&gpu, &scene, surroundings, measured, &request, progress);
+            let picture = made?;
             Ok(match request.to {
                 Destination::File { path, .. } => Errand {
                     message: format!("The picture is in {}", path.display()),
-                    picture: None,
-                    rate: None,
+                    ..Errand::default()
                 },
                 Destination::Clipboard => Errand {
                     message: "The picture was sent to the clipboard".to_owned(),
@@ -186,8 +186,8 @@ impl Explorer {
                     "The environment is in {}",
                     files::absolute(Path::new(&export.path)).display()
                 ),
-                picture: None,
                 rate: Some(export.texels() as f64 / start.elapsed().as_secs_f64()),
+                ..Errand::default()
             })
         });
     }
@@ -199,14 +199,13 @@ impl Explorer {
             let message = format!("The scene is in {}", path.display());
             Ok(Errand {
                 message,
-                picture: None,
-                rate: None,
+                ..Errand::default()
             })
         });
     }
 
     /// Starts a job that ends in a message.
-    fn send(
+    pub(super) fn send(
         &mut self,
         ctx: &Context,
         title: &str,
@@ -274,58 +273,6 @@ impl Explorer {
                 News::PathsFailed(why) => self.fail(why),
                 News::Note(note) => self.tell(note),
             }
-        }
-    }
-
-    /// Measures the loss that is asked for while its pane is seen, and nothing while it is hidden.
-    pub(super) fn measure_loss(&mut self, ctx: &Context) {
-        let seen = self.surroundings.as_ref();
-        let seen = seen.filter(|_| self.seen.contains(&Pane::Loss));
-        let wanted = seen.map(|shown| Wanted::new(&self.state, &shown.loaded));
-        if let (None, Some(shown)) = (&wanted, &self.surroundings) {
-            self.labs.loss.forget_others(&shown.loaded);
-        }
-        if self.complete {
-            self.labs.loss.complete(wanted, ctx);
-            return;
-        }
-        let mut jobs = Jobs {
-            last_id: &mut self.next_job,
-            ctx,
-        };
-        if let Err(why) = self.labs.loss.follow(wanted, &mut jobs) {
-            self.fail(why);
-        }
-    }
-
-    /// Asks the evaluators of the selected mapping where they break.
-    pub(super) fn measure_stability(&mut self, ctx: &Context) {
-        let mut jobs = Jobs {
-            last_id: &mut self.next_job,
-            ctx,
-        };
-        let measured = self.labs.stability.measure(self.state.mapping, &mut jobs);
-        if let Err(why) = measured {
-            self.fail(why);
-        }
-    }
-
-    /// Looks through the microscope that is seen.
-    pub(super) fn look(&mut self, ctx: &Context) {
-        let state = &self.state;
-        let view = self
-            .microscope_px
-            .map(|size| state.stability.view(state.mapping, size));
-        if self.complete {
-            self.labs.stability.look_now(view, ctx);
-            return;
-        }
-        let mut jobs = Jobs {
-            last_id: &mut self.next_job,
-            ctx,
-        };
-        if let Err(why) = self.labs.stability.follow(view, &mut jobs) {
-            self.fail(why);
         }
     }
 
