@@ -119,13 +119,16 @@ fn mapping_ui(ui: &mut Ui, model: &mut Model<'_>) {
 fn form_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let state = model.state;
     let mut chosen = state.form;
-    let now = state.mapping.form_or_precise(chosen.form);
+    let now = model.form.form;
     let id = |form: &ShaderForm| form.id().to_owned();
     if let Some(form) = choose_ui(ui, "computed by", &now, state.mapping.forms(), id) {
         chosen.form = form;
     }
     if now != ShaderForm::Precise {
         ui.label(RichText::new(now.about()).small());
+    }
+    if now != state.mapping.form_or_precise(chosen.form) {
+        ui.label(RichText::new("chosen by the error budget").small());
     }
     ui.checkbox(&mut chosen.difference, "its error in texels, magnified");
     if chosen.difference {

@@ -240,8 +240,10 @@ impl Explorer {
         let jobs = self.jobs();
         let (state, map) = (&self.state, self.state.mapping);
         let pixels = laboratory::largest_pixels_per_texel(state, &self.laid_out, map);
+        let form = laboratory::used_form(state, self.labs.bench.rows(), pixels);
         let mut model = Model {
             state: &self.state,
+            form,
             history: &self.history,
             is_ball: self.object.is_ball(),
             target: self.object.target(),
@@ -293,7 +295,10 @@ impl Explorer {
             self.fail(why);
         }
         let object = self.object.frames(&self.state, size_px);
-        let frame = frame_of(&self.state, object, laid_out, self.complete);
+        let pixels =
+            laboratory::largest_pixels_per_texel(&self.state, laid_out, self.state.mapping);
+        let form = laboratory::used_form(&self.state, self.labs.bench.rows(), pixels);
+        let frame = frame_of(&self.state, form, object, laid_out, self.complete);
         match self.renderer.draw(&frame) {
             Ok(report) => {
                 self.pending = report.is_pending();

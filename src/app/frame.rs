@@ -3,15 +3,16 @@
 use super::map_panel::window_of;
 use super::object::ObjectFrames;
 use super::panel_view::rect_of_size;
-use super::state::AppState;
+use super::state::{AppState, FormState};
 use super::theme::PICTURE_BACKGROUND;
 use super::views::ViewKey;
 use crate::gpu::{Frame, Overlays, PanelFrame, ViewportFrame, map_size};
 
-/// The frame that shows `state` in the views that were laid out, with their sizes in pixels. A view that was not laid out
+/// The frame that shows `state`, in this form of the shaders, in the views that were laid out, with their sizes in pixels. A view that was not laid out
 /// is not asked for, so that the renderer drops what only it needs.
 pub fn frame_of(
     state: &AppState,
+    form: FormState,
     object: ObjectFrames,
     laid_out: &[(ViewKey, [u32; 2])],
     complete: bool,
@@ -46,10 +47,10 @@ pub fn frame_of(
                     overlays,
                     probe: state.probe,
                     show_probe: state.overlays.probe,
-                    form: state.form.form,
-                    form_difference: state.form.difference.then(|| {
+                    form: form.form,
+                    form_difference: form.difference.then(|| {
                         let rows = map_size(state.mapping, state.texel_budget)[1];
-                        state.form.factor(state.mapping, rows) as f32
+                        form.factor(state.mapping, rows) as f32
                     }),
                 });
             }

@@ -21,7 +21,7 @@ use super::map_panel::window_of;
 use super::model::JobLine;
 use super::object::{Jobs, job_line};
 use super::panel_view::rect_of_size;
-use super::state::AppState;
+use super::state::{AppState, FormState};
 use super::views::ViewKey;
 use crate::gpu::ShaderDevice;
 use crate::imaging::Progress;
@@ -29,8 +29,8 @@ use crate::lab::bench::{CPU, Plan, Row, Way, bench};
 use crate::lab::choice::{Choice, allowed_texels, cheapest, choices, fastest, pixels_per_texel};
 use crate::lab::inputs::Inputs;
 use crate::lab::machine::Machine;
-use crate::mapping::MappingId;
 use crate::mapping::evaluator::EvaluatorInfo;
+use crate::mapping::{MappingId, ShaderForm};
 
 /// What a run has measured.
 #[derive(Debug)]
@@ -187,6 +187,24 @@ impl<'a> Used<'a> {
     }
 }
 
+/// The form in which the viewport runs the mapping's shader: the cheapest on the adapter within the budget while that is switched on
+/// and something measured is within it, else the chosen one.
+pub fn used_form(state: &AppState, rows: &[Row], pixels: f64) -> FormState {
+    let (map, laboratory) = (state.mapping, &state.laboratory);
+    let id = map.info().id;
+    let is_of =
+        |row: &&Row| row.mapping == id && row.direction == Way::Forward && row.device != CPU;
+    let on_adapter: Vec<&Row> = rows.iter().filter(is_of).collect();
+    let height = crate::gpu::map_size(map, state.texel_budget)[1];
+    let allowed = allowed_texels(laboratory.budget_texels, pixels);
+    let within = cheapest(&on_adapter, height, allowed).filter(|_| laboratory.budget_on);
+    let form = within.and_then(|choice| ShaderForm::from_id(choice.row.evaluator));
+    FormState {
+        form: form.unwrap_or_else(|| map.form_or_precise(state.form.form)),
+        ..state.form
+    }
+}
+
 /// The measurements of a mapping's lookups on one device.
 fn forward_on<'a>(rows: &'a [Row], map: MappingId, device: &str) -> Vec<&'a Row> {
     let id = map.info().id;
@@ -286,6 +304,34 @@ mod tests {
         assert_ne!(magnified, within);
         // Nothing is within this: the chosen one stays.
         assert_eq!(used(&state, &rows, 1e9), (REFERENCE, true, false));
+    }
+
+    #[test]
+    fn the_budget_chooses_the_viewports_form_among_what_the_adapter_ran() {
+        let own = rows();
+        let on_adapter = |form: ShaderForm, ns: f64, max_error_texels: f64| Row {
+            evaluator: form.id(),
+            device: "an adapter".to_owned(),
+            isa: crate::lab::bench::SHADER,
+            ns,
+            max_error_texels,
+            holes: 0,
+            ..own[0].clone()
+        };
+        let mut all = own.clone();
+        all.push(on_adapter(ShaderForm::Own7, 1.0, 0.1));
+        all.push(on_adapter(ShaderForm::Precise, 2.0, 1e-4));
+        let mut state = AppState::default();
+        state.form.form = ShaderForm::Table;
+        let form = |state: &AppState, rows: &[Row]| used_form(state, rows, 1.0).form;
+        assert_eq!(form(&state, &all), ShaderForm::Table);
+        state.laboratory.budget_on = true;
+        state.laboratory.budget_texels = 0.5;
+        assert_eq!(form(&state, &all), ShaderForm::Own7);
+        state.laboratory.budget_texels = 0.01;
+        assert_eq!(form(&state, &all), ShaderForm::Precise);
+        // The processor's times say nothing of a shader.
+        assert_eq!(form(&state, &own), ShaderForm::Table);
     }
 
     #[test]

@@ -15,7 +15,7 @@ use super::laboratory::{Used, Wanted};
 use super::labs::Labs;
 use super::pace::Paces;
 use super::reading::Reading;
-use super::state::{AppState, Overlays};
+use super::state::{AppState, FormState, Overlays};
 use super::story::StoryStep;
 use super::views::{ViewKey, Views};
 use crate::gpu::Gpu;
@@ -62,6 +62,8 @@ pub struct Message {
 pub struct Model<'a> {
     /// The state.
     pub state: &'a AppState,
+    /// The form in which the viewport runs the shaders, and what is shown of it; the budget may have chosen it.
+    pub form: FormState,
     /// What can be undone.
     pub history: &'a History,
     /// The object stands for the unit ball, whose paths are known in closed form.

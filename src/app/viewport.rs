@@ -207,9 +207,9 @@ fn paint_marks(ui: &Ui, model: &Model<'_>, rect: Rect) {
 fn paint_difference_legend(painter: &egui::Painter, model: &Model<'_>, rect: Rect) {
     const BAR: egui::Vec2 = vec2(96.0, 10.0);
     const STEPS: u8 = 12;
-    let (state, mapping) = (model.state.form, model.state.mapping);
-    let form = mapping.form_or_precise(state.form);
-    let factor = state.factor(mapping, model.map_size(mapping)[1]);
+    let (shown, mapping) = (model.form, model.state.mapping);
+    let form = mapping.form_or_precise(shown.form);
+    let factor = shown.factor(mapping, model.map_size(mapping)[1]);
     let bar = Rect::from_min_size(rect.right_bottom() - BAR - vec2(12.0, 26.0), BAR);
     painter.rect_filled(bar.expand(1.0), 0.0, theme::PROBE_EDGE);
     let step = vec2(BAR.x / f32::from(STEPS), 0.0);
