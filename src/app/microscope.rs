@@ -270,6 +270,9 @@ fn legend_ui(ui: &mut Ui, picture: &Picture) {
                 ui.label(RichText::new(count_text(picture, kind.name(), count)).small());
             }
         }
+    });
+    // On a line of its own, so that the scale keeps its ends.
+    ui.horizontal_wrapped(|ui| {
         scale_ui(ui, picture.allowed_rad);
         let over = picture.count(Verdict::TooFar);
         let largest = format!(
