@@ -198,7 +198,7 @@ fn errors_are_those_of_the_filter() {
                 f64::sqrt(sum / count)
             };
             let budgets_of = match *name {
-                "harmonics" => [3e-5, 3e-7, 3e-7],
+                "harmonics" => [3e-5, 3e-7, 2.5e-7],
                 "linear" => [2e-5, 2e-7, 2e-7],
                 _ => [5e-2; 3],
             };

@@ -45,7 +45,7 @@ fn better_filters_show() {
         (Filter::Nearest, 30.0),
         (Filter::Bilinear, 60.0),
         (Filter::Bicubic, 90.0),
-        (Filter::Lanczos, 90.0),
+        (Filter::Lanczos, 125.0),
         (Filter::Area, 60.0),
     ] {
         budgets.at_least_db(

@@ -17,7 +17,7 @@ pub enum Filter {
     Bilinear,
     /// Catmull and Rom's cubic over 4 x 4 texels.
     Bicubic,
-    /// Lanczos's windowed sinc with three lobes over 6 x 6 texels, adjusted so that it keeps cubics as they are.
+    /// Lanczos's windowed sinc with three lobes over 6 x 6 texels, adjusted so that it keeps quartics as they are.
     Lanczos,
     /// The mean over the texel's footprint, weighted by solid angle: neither aliases nor blurs more than it must.
     Area,

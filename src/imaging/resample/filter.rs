@@ -196,39 +196,44 @@ fn lanczos(t: f32) -> [f32; 6] {
     std::array::from_fn(|k| from[k] + (to[k] - from[k]) * rest)
 }
 
-/// Entries of [`LANCZOS`]: between two, straight lines are off by at most w''/8 of the square of their distance, 1.2e-6.
+/// Entries of [`LANCZOS`]: between two, straight lines are off by at most w''/8 of the square of their distance, 5e-7.
 const PHASES: usize = 1024;
 
 /// Lanczos's weights sinc(x) sinc(x/3) at distances x = k - 2 - t, for t from 0 to 1.
 ///
 /// As they are, or divided by their sum, they do not even keep a parabola: smooth waves come out at 64 dB. Each is multiplied
-/// by one cubic polynomial of x, chosen so that all cubics come out as they are.
+/// by one polynomial of x, chosen so that all quartics come out as they are. Were it cubics only, the weights would swing more (at a
+/// quarter of a texel 1.00 and -0.20 instead of 0.89 and -0.11): a step errs by a tenth more then, waves of eight texels by
+/// 9e-3 of their height instead of 7e-4.
 static LANCZOS: LazyLock<Vec<[f32; 6]>> = LazyLock::new(|| {
     let weights = |phase: usize| match phase {
         0 => [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
         PHASES => [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
-        _ => keeping_cubics(phase as f64 / PHASES as f64).map(|weight| weight as f32),
+        _ => keeping_quartics(phase as f64 / PHASES as f64).map(|weight| weight as f32),
     };
     (0..=PHASES).map(weights).collect()
 });
 
-fn keeping_cubics(t: f64) -> [f64; 6] {
+/// Coefficients of the polynomial, and moments that are kept.
+const KEPT: usize = 5;
+
+fn keeping_quartics(t: f64) -> [f64; 6] {
     let sinc = |x: f64| (PI * x).sin() / (PI * x);
     let x: [f64; 6] = std::array::from_fn(|k| k as f64 - 2.0 - t);
     let weights = x.map(|x| sinc(x) * sinc(x / 3.0));
-    // Sum over k of w p(x) x^m = 1 for m = 0, else 0: four equations for the polynomial p's coefficients.
+    // Sum over k of w p(x) x^m = 1 for m = 0, else 0: as many equations as the polynomial p has coefficients.
     let moment = |power: i32| -> f64 { (0..6).map(|k| weights[k] * x[k].powi(power)).sum() };
-    let mut rows: [[f64; 5]; 4] = std::array::from_fn(|m| {
+    let mut rows: [[f64; KEPT + 1]; KEPT] = std::array::from_fn(|m| {
         std::array::from_fn(|n| {
-            if n < 4 {
+            if n < KEPT {
                 moment((m + n) as i32)
             } else {
                 f64::from(m == 0)
             }
         })
     });
-    for pivot in 0..4 {
-        let largest = (pivot..4).fold(pivot, |best, row| {
+    for pivot in 0..KEPT {
+        let largest = (pivot..KEPT).fold(pivot, |best, row| {
             if rows[row][pivot].abs() > rows[best][pivot].abs() {
                 row
             } else {
@@ -249,8 +254,8 @@ fn keeping_cubics(t: f64) -> [f64; 6] {
         }
     }
     std::array::from_fn(|k| {
-        let polynomial: f64 = (0..4)
-            .map(|m| rows[m][4] / rows[m][m] * x[k].powi(m as i32))
+        let polynomial: f64 = (0..KEPT)
+            .map(|m| rows[m][KEPT] / rows[m][m] * x[k].powi(m as i32))
             .sum();
         weights[k] * polynomial
     })
@@ -262,7 +267,7 @@ mod tests {
 
     #[test]
     fn weights_keep_polynomials() {
-        let mut worst = [0.0_f64; 5];
+        let mut worst = [0.0_f64; 6];
         for step in 0..1000 {
             let t = step as f32 / 1000.0;
             for (m, worst) in worst.iter_mut().enumerate() {
@@ -281,7 +286,7 @@ mod tests {
                 }
             }
         }
-        assert!(worst[..4].iter().all(|worst| *worst < 4e-6), "{worst:?}");
-        assert!(worst[4] > 0.1, "not every polynomial: {worst:?}");
+        assert!(worst[..5].iter().all(|worst| *worst < 4e-6), "{worst:?}");
+        assert!(worst[5] > 0.1, "not every polynomial: {worst:?}");
     }
 }
