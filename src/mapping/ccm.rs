@@ -97,17 +97,22 @@ impl Mapping for Ccm {
 
     #[inline(always)]
     fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
-        face_lanes(dirs, points, sign_table_lane, |face, a, b| {
-            let (along, across) = if is_x_face(face) { (b, a) } else { (a, b) };
-            let q = 1.0 / (1.0 + along * along).sqrt();
-            let along = atan_unit(along * FRAC_1_SQRT_2 as f32) * (0.5 / HALF_EDGE_RAD) as f32;
-            let across = 0.5 * atan_unit(across * q) / atan_unit(q);
-            if is_x_face(face) {
-                (across, along)
-            } else {
-                (along, across)
-            }
-        });
+        face_lanes(dirs, points, sign_table_lane, Self::from_middle);
+    }
+
+    const HAS_FACES: bool = true;
+
+    #[inline(always)]
+    fn from_middle(face: u32, a: f32, b: f32) -> (f32, f32) {
+        let (along, across) = if is_x_face(face) { (b, a) } else { (a, b) };
+        let q = 1.0 / (1.0 + along * along).sqrt();
+        let along = atan_unit(along * FRAC_1_SQRT_2 as f32) * (0.5 / HALF_EDGE_RAD) as f32;
+        let across = 0.5 * atan_unit(across * q) / atan_unit(q);
+        if is_x_face(face) {
+            (across, along)
+        } else {
+            (along, across)
+        }
     }
 
     fn line(_: usize, coordinate: f64) -> Line {
@@ -146,7 +151,7 @@ impl Mapping for Ccm {
 
     #[inline(always)]
     fn latitude_lanes(columns: [&Lane; 4], row: Line, latitudes: &mut AngleLanes) {
-        latitudes.base.fill(0.0);
+        latitudes.base = 0.0;
         for (rest, column) in latitudes.rest.iter_mut().zip(columns[2]) {
             *rest = -row[3] * column;
         }

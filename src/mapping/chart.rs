@@ -99,6 +99,11 @@ pub trait Mapping {
         Self::continued(point)
     }
 
+    /// Where the direction of a point beyond one part of a chart, [`extended`](Self::extended), lies on the map.
+    fn folded<R: Real>(facet: u32, point: ChartPoint<R>) -> Option<ChartPoint<R>> {
+        Self::forward(Self::extended(facet, point))
+    }
+
     /// Whether the functions on lanes below are the mapping's own, free of branches.
     const HAS_LANES: bool = false;
 
@@ -148,16 +153,18 @@ pub trait Mapping {
         let _ = (columns, row, latitudes);
     }
 
-    /// Whether u depends on the longitude alone and v on the latitude alone: rows are parallels, columns meridians.
-    const HAS_PARALLELS: bool = false;
+    /// Where u depends on the longitude alone and v in proportion on the latitude, so that rows are parallels and columns meridians: v
+    /// on the equator, and what is added for each turn of latitude.
+    const PARALLELS: Option<[f32; 2]> = None;
 
-    /// The v of latitudes in turns, where the mapping [has parallels](Self::HAS_PARALLELS); the rest of `points` is left as it is.
+    /// Whether charts are the faces of a cube, from the side in the order of [`cube_face`](super::cube_face).
+    const HAS_FACES: bool = false;
+
+    /// (u - 1/2, v - 1/2) of a point of a face's gnomonic plane, where the mapping [has faces](Self::HAS_FACES); without a branch.
     #[inline(always)]
-    fn parallel_lanes(latitudes: &AngleLanes, points: &mut PointLanes)
-    where
-        Self: Sized,
-    {
-        let _ = (latitudes, points);
+    fn from_middle(face: u32, a: f32, b: f32) -> (f32, f32) {
+        let _ = face;
+        (a, b)
     }
 
     /// The formula step by step with the numbers of `dir` put in; empty for a vector that is no direction.

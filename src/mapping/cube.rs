@@ -50,9 +50,14 @@ impl Mapping for Cube {
 
     #[inline(always)]
     fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
-        face_lanes(dirs, points, largest_component_lane, |_, a, b| {
-            (0.5 * a, 0.5 * b)
-        });
+        face_lanes(dirs, points, largest_component_lane, Self::from_middle);
+    }
+
+    const HAS_FACES: bool = true;
+
+    #[inline(always)]
+    fn from_middle(_: u32, a: f32, b: f32) -> (f32, f32) {
+        (0.5 * a, 0.5 * b)
     }
 
     fn line(_: usize, coordinate: f64) -> Line {

@@ -7,7 +7,7 @@
 //! rounded dot products leave holes.
 
 use super::chart::to_signed;
-use super::{AngleLanes, DirLanes, LANES, Layout, MappingInfo, PointLanes, Step};
+use super::{AngleLanes, DirLanes, LANES, Lane, Layout, Line, MappingInfo, PointLanes, Step};
 use crate::math::{Real, Vec3, atan_turns};
 
 /// Names of the six charts.
@@ -327,7 +327,7 @@ pub fn sign_table_lane(x: f32, y: f32, z: f32) -> Framed {
     framed(is_y, is_z, x, y, z)
 }
 
-/// Chart points of many directions: their faces by `choose`, and u - 1/2 and v - 1/2 by `place` of the gnomonic plane.
+/// Chart points of many directions: their faces by `choose`, and u - 1/2 and v - 1/2 by `place` of face and gnomonic plane.
 #[inline(always)]
 pub fn face_lanes(
     dirs: &DirLanes,
@@ -335,13 +335,54 @@ pub fn face_lanes(
     choose: impl Fn(f32, f32, f32) -> Framed,
     place: impl Fn(u32, f32, f32) -> (f32, f32),
 ) {
-    points.base_u.fill(0.5);
-    points.base_v.fill(0.5);
+    points.base = Some(0.5);
     for k in 0..LANES {
         let d = choose(dirs.x[k], dirs.y[k], dirs.z[k]);
         let inverse = 1.0 / d.axis;
         points.chart[k] = d.face;
         (points.rest_u[k], points.rest_v[k]) = place(d.face, d.across * inverse, d.down * inverse);
+    }
+}
+
+/// What the directions of a meridian have in common, from their x and z where y is 0: the side face that they cross, and for
+/// [`graticule_lanes`] a and the secant of the longitude, both from the face's middle, x and z.
+pub fn meridian([x, z]: [f64; 2]) -> (u32, Line) {
+    let face = if z.abs() >= x.abs() {
+        4 + u32::from(z < 0.0)
+    } else {
+        u32::from(x < 0.0)
+    };
+    let (sc, _, ma) = to_frame(face, Vec3::new(x, 0.0, z));
+    (face, [sc / ma, 1.0 / ma, x, z].map(|c| c as f32))
+}
+
+/// What the directions of a parallel have in common, from their distance from the y axis and their y, for [`graticule_lanes`]: the
+/// latitude's tangent, and what x and z are multiplied by on the face that it crosses around the pole.
+pub fn parallel([radius, y]: [f64; 2]) -> Line {
+    let cotangent = radius / y.abs();
+    let down = if y < 0.0 { -cotangent } else { cotangent };
+    [y / radius, cotangent, down, 0.0].map(|c| c as f32)
+}
+
+/// Chart points of the directions in which a parallel meets meridians: no division is left.
+#[inline(always)]
+pub fn graticule_lanes(
+    (faces, meridians): (&[u32; LANES], [&Lane; 4]),
+    [tangent, across, down, _]: Line,
+    points: &mut PointLanes,
+    place: impl Fn(u32, f32, f32) -> (f32, f32),
+) {
+    let [a, secant, x, z] = meridians;
+    let pole = if tangent < 0.0 { 3 } else { 2 };
+    points.base = Some(0.5);
+    for k in 0..LANES {
+        let b = -tangent * secant[k];
+        let is_side = b.abs() <= 1.0;
+        let face = if is_side { faces[k] } else { pole };
+        let a = if is_side { a[k] } else { x[k] * across };
+        let b = if is_side { b } else { z[k] * down };
+        points.chart[k] = face;
+        (points.rest_u[k], points.rest_v[k]) = place(face, a, b);
     }
 }
 
@@ -353,7 +394,7 @@ pub const fn is_side(face: u32) -> bool {
 /// Latitudes of at most an eighth of a turn, from their tangents.
 #[inline(always)]
 pub fn shallow_latitudes(latitudes: &mut AngleLanes, tangent: impl Fn(usize) -> f32) {
-    latitudes.base.fill(0.0);
+    latitudes.base = 0.0;
     for k in 0..LANES {
         latitudes.rest[k] = atan_turns(tangent(k));
     }

@@ -39,10 +39,15 @@ impl Mapping for Eac {
 
     #[inline(always)]
     fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
-        face_lanes(dirs, points, largest_component_lane, |_, a, b| {
-            let place = |c: f32| atan_unit(c) * (2.0 * FRAC_1_PI) as f32;
-            (place(a), place(b))
-        });
+        face_lanes(dirs, points, largest_component_lane, Self::from_middle);
+    }
+
+    const HAS_FACES: bool = true;
+
+    #[inline(always)]
+    fn from_middle(_: u32, a: f32, b: f32) -> (f32, f32) {
+        let place = |c: f32| atan_unit(c) * (2.0 * FRAC_1_PI) as f32;
+        (place(a), place(b))
     }
 
     fn line(_: usize, coordinate: f64) -> Line {

@@ -36,12 +36,13 @@ pub struct DirLanes {
 
 /// Angles in turns, each split as `base + rest`.
 ///
-/// A base is a multiple of 1/8, a rest at most that large, so that angles near a quarter of a turn keep the digits of small ones.
+/// The base, which all have in common, is a multiple of 1/8, a rest at most that large, so that angles near a quarter of a turn keep
+/// the digits of small ones.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct AngleLanes {
-    /// Multiples of 1/8.
-    pub base: Lane,
+    /// A multiple of 1/8.
+    pub base: f32,
     /// The rest.
     pub rest: Lane,
 }
@@ -55,6 +56,8 @@ pub struct AngleLanes {
 pub struct PointLanes {
     /// Chart, or [`PointLanes::NOWHERE`].
     pub chart: [u32; LANES],
+    /// Both bases of all, where they are but one number; then `base_u` and `base_v` mean nothing.
+    pub base: Option<f32>,
     /// Exact part of u.
     pub base_u: Lane,
     /// The rest of u.
@@ -83,7 +86,7 @@ impl Default for DirLanes {
 impl Default for AngleLanes {
     fn default() -> Self {
         Self {
-            base: [0.0; LANES],
+            base: 0.0,
             rest: [0.0; LANES],
         }
     }
@@ -93,6 +96,7 @@ impl Default for PointLanes {
     fn default() -> Self {
         Self {
             chart: [Self::NOWHERE; LANES],
+            base: None,
             base_u: [0.0; LANES],
             rest_u: [0.0; LANES],
             base_v: [0.0; LANES],
@@ -106,8 +110,7 @@ pub type Line = [f32; 4];
 
 /// Lane by lane through [`Mapping::forward`].
 pub(super) fn forward_each<M: Mapping>(dirs: &DirLanes, points: &mut PointLanes) {
-    points.base_u.fill(0.0);
-    points.base_v.fill(0.0);
+    points.base = Some(0.0);
     for k in 0..LANES {
         let point = M::forward(Vec3::new(dirs.x[k], dirs.y[k], dirs.z[k]));
         let point = point.unwrap_or(ChartPoint::new(PointLanes::NOWHERE, 0.0, 0.0));

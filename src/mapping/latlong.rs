@@ -60,11 +60,33 @@ impl Mapping for Latlong {
         direction(longitude(point.u), colatitude(point.v))
     }
 
+    /// Without an angle: over the date line to the other border, over a pole half a turn on.
+    fn folded<R: Real>(_: u32, point: ChartPoint<R>) -> Option<ChartPoint<R>> {
+        let ChartPoint { u, v, .. } = point;
+        let (zero, one) = (R::zero(), R::one());
+        let (u, v) = if v < zero {
+            (u + R::half(), -v)
+        } else if v > one {
+            (u + R::half(), R::two() - v)
+        } else {
+            (u, v)
+        };
+        let u = if u < zero {
+            u + one
+        } else if u > one {
+            u - one
+        } else {
+            u
+        };
+        Some(ChartPoint::new(0, u, v).clamped())
+    }
+
     const HAS_LANES: bool = true;
     const LANES_HAVE_POLES: bool = true;
 
     #[inline(always)]
     fn forward_lanes(dirs: &DirLanes, points: &mut PointLanes) {
+        points.base = None;
         for k in 0..LANES {
             let (x, y, z) = (dirs.x[k], dirs.y[k], dirs.z[k]);
             let (base, rest) = atan2_turns(x, z);
@@ -106,19 +128,11 @@ impl Mapping for Latlong {
 
     #[inline(always)]
     fn latitude_lanes(_: [&Lane; 4], row: Line, latitudes: &mut AngleLanes) {
-        latitudes.base.fill(row[2]);
+        latitudes.base = row[2];
         latitudes.rest.fill(row[3]);
     }
 
-    const HAS_PARALLELS: bool = true;
-
-    #[inline(always)]
-    fn parallel_lanes(latitudes: &AngleLanes, points: &mut PointLanes) {
-        for k in 0..LANES {
-            points.base_v[k] = 0.5 - 2.0 * latitudes.base[k];
-            points.rest_v[k] = -2.0 * latitudes.rest[k];
-        }
-    }
+    const PARALLELS: Option<[f32; 2]> = Some([0.5, -2.0]);
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
         let (Some(d), Some(p)) = (dir.scaled_direction(), Self::forward(dir)) else {

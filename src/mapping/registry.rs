@@ -65,6 +65,11 @@ macro_rules! registry {
                 match self { $(Self::$mapping => $module::$mapping::extended(facet, point),)+ }
             }
 
+            /// See [`Mapping::folded`].
+            pub fn folded<R: Real>(self, facet: u32, point: ChartPoint<R>) -> Option<ChartPoint<R>> {
+                match self { $(Self::$mapping => $module::$mapping::folded(facet, point),)+ }
+            }
+
             /// See [`Mapping::steps`].
             pub fn steps<R: Real + std::fmt::Display>(self, dir: Vec3<R>) -> Vec<Step> {
                 match self { $(Self::$mapping => $module::$mapping::steps(dir),)+ }
@@ -118,16 +123,31 @@ macro_rules! registry {
                 match self { $(Self::$mapping => $module::$mapping::latitude_lanes(columns, row, latitudes),)+ }
             }
 
-            /// See [`Mapping::HAS_PARALLELS`].
-            pub fn has_parallels(self) -> bool {
-                match self { $(Self::$mapping => <$module::$mapping as Mapping>::HAS_PARALLELS,)+ }
+            /// See [`Mapping::PARALLELS`].
+            pub fn parallels(self) -> Option<[f32; 2]> {
+                match self { $(Self::$mapping => <$module::$mapping as Mapping>::PARALLELS,)+ }
             }
 
-            /// See [`Mapping::parallel_lanes`].
-            #[inline(always)]
-            pub fn parallel_lanes(self, latitudes: &AngleLanes, points: &mut PointLanes) {
-                match self { $(Self::$mapping => $module::$mapping::parallel_lanes(latitudes, points),)+ }
+            /// See [`Mapping::HAS_FACES`].
+            pub fn has_faces(self) -> bool {
+                match self { $(Self::$mapping => <$module::$mapping as Mapping>::HAS_FACES,)+ }
             }
+
+            /// See [`cube_face::graticule_lanes`]; nothing where the mapping has no faces.
+            #[inline(always)]
+            pub fn graticule_lanes(
+                self,
+                meridians: (&[u32; LANES], [&Lane; 4]),
+                parallel: Line,
+                points: &mut PointLanes,
+            ) {
+                match self {
+                    $(Self::$mapping => if <$module::$mapping as Mapping>::HAS_FACES {
+                        cube_face::graticule_lanes(meridians, parallel, points, $module::$mapping::from_middle);
+                    },)+
+                }
+            }
+
         }
     };
 }

@@ -8,23 +8,21 @@ use pulp::NullaryFnOnce;
 use super::encode::Encoder;
 use super::filter::Sampler;
 use super::lane_places::{LanePlaces, LaneScratch, PlaceLanes};
-use super::lookups::Lookups;
 use super::prefetch::prefetch;
 use super::stored::Stored;
 use super::strips::{Kernel, Patch, Run, Scratch};
-use super::texels::{Pixel, Strides};
+use super::texels::Strides;
 use crate::imaging::EnvironmentMap;
 use crate::mapping::LANES;
-use crate::math::nearest_whole;
 
 /// Samples a pixel: opacity goes the general way.
 const RGB: usize = 3;
 
-/// Samples of a tap: a pixel, and one more that fills a register.
-const TAP: usize = RGB + 1;
+/// Samples that are read at once: those of two neighbours, and two more that fill a register.
+const LOAD: usize = 2 * RGB + 2;
 
-/// Samples of two neighbours.
-const LOAD: usize = RGB + TAP;
+/// Samples of a neighbour in a register of its own: a pixel, and one more.
+const TAP: usize = RGB + 1;
 
 /// What comes from memory at once, on all processors that are common.
 const CACHE_LINE_BYTES: usize = 64;
@@ -77,10 +75,9 @@ impl<'a, S> Chart<'a, S> {
     fn take<M: Mixing<S>>([above, under]: [&'a [S]; 2], mixing: &mut M, block: &Block, k: usize) {
         let (at, places) = (block.starts[k] as usize, &block.places);
         if let (Some(above), Some(under)) = (above.get(at..at + LOAD), under.get(at..at + LOAD))
-            && let (Some(a), Some(b)) = (above.first_chunk(), above.last_chunk())
-            && let (Some(c), Some(d)) = (under.first_chunk(), under.last_chunk())
+            && let (Some(above), Some(under)) = (above.first_chunk(), under.first_chunk())
         {
-            mixing.take(k, [a, b, c, d], places.right[k], places.below[k]);
+            mixing.take(k, [above, under], places.right[k], places.below[k]);
         }
     }
 
@@ -209,60 +206,79 @@ impl<'a, S: Stored> Fused<'a, S> {
         if let Some(chart) = block.chart {
             let rows = self.chart(chart).rows();
             for k in 0..LANES {
-                Chart::take(rows, mixing, block, k);
+                Chart::take::<M>(rows, mixing, block, k);
             }
         } else {
             for k in 0..LANES {
                 let rows = self.chart(block.places.chart[k]).rows();
-                Chart::take(rows, mixing, block, k);
+                Chart::take::<M>(rows, mixing, block, k);
             }
         }
     }
 
-    /// Finds the marked texels again, one by one.
+    fn run<M: Mixing<S>, const ROUNDS: bool>(
+        &self,
+        patch: &Patch,
+        scratch: &mut Scratch,
+        out: &mut [S],
+        mixing: M,
+    ) {
+        self.places.isa.run(Work::<_, _, ROUNDS> {
+            kernel: self,
+            patch,
+            scratch,
+            out,
+            mixing,
+        });
+    }
+
+    /// Finds the marked texels again, with the gutter.
     #[cold]
     #[inline(never)]
-    fn mend(&self, run: &Run, block: &Block, out: &mut [S]) {
+    fn mend(&self, run: &Run, block: &Block, scratch: &mut Scratch, out: &mut [S]) {
+        let Scratch { lookups, pixels } = scratch;
+        let texels = out.len() / RGB;
+        let marked = || (0..texels).filter(|k| block.off[*k] != 0);
         let places = &block.places;
-        let mut lookups = Lookups::default();
-        lookups.resize(1);
-        for (k, out) in out.chunks_exact_mut(RGB).enumerate() {
-            if block.off[k] == 0 {
-                continue;
-            }
-            lookups.chart[0] = places.chart[k];
-            (lookups.column[0], lookups.row[0]) = (places.column[k], places.row[k]);
-            (lookups.right[0], lookups.below[0]) = (places.right[k], places.below[k]);
-            let mut light: [Pixel; 1] = [[0.0; 4]];
-            self.sampler.sample(&lookups, &mut light);
+        lookups.resize(marked().count());
+        for (index, k) in marked().enumerate() {
+            lookups.chart[index] = places.chart[k];
+            (lookups.column[index], lookups.row[index]) = (places.column[k], places.row[k]);
+            (lookups.right[index], lookups.below[index]) = (places.right[k], places.below[k]);
+        }
+        pixels.resize(lookups.chart.len(), [0.0; 4]);
+        self.sampler.sample(lookups, pixels);
+        for (pixel, k) in pixels.chunks(1).zip(marked()) {
             let column = run.columns.start + k as u32;
             let texel = Run {
                 columns: column..column + 1,
                 ..run.clone()
             };
-            self.encoder.write(&texel, &light, out);
+            self.encoder
+                .write(&texel, pixel, &mut out[RGB * k..RGB * (k + 1)]);
         }
     }
 }
 
 /// A patch, compiled for a set of instructions.
-struct Work<'k, 'a, 'o, S, M> {
+struct Work<'k, 'a, 'o, S, M, const ROUNDS: bool> {
     kernel: &'k Fused<'a, S>,
     patch: &'k Patch,
+    scratch: &'o mut Scratch,
     out: &'o mut [S],
     mixing: M,
 }
 
 /// What becomes of the samples at the places of a block.
 trait Mixing<S> {
-    /// The texel at a place, the one to its right, and those of the row below; each with one sample more.
-    fn take(&mut self, k: usize, taps: [&[S; TAP]; 4], right: f32, below: f32);
+    /// The texel at a place and the one to its right, and those of the row below.
+    fn take(&mut self, k: usize, rows: [&[S; LOAD]; 2], right: f32, below: f32);
 
     /// The block's samples, pixel after pixel; what was not taken is left over from before.
     fn finish(&mut self, places: &PlaceLanes) -> &[S; LANES * RGB];
 }
 
-impl<S: Stored, M: Mixing<S>> NullaryFnOnce for Work<'_, '_, '_, S, M> {
+impl<S: Stored, M: Mixing<S>, const ROUNDS: bool> NullaryFnOnce for Work<'_, '_, '_, S, M, ROUNDS> {
     type Output = ();
 
     #[inline(always)]
@@ -278,7 +294,7 @@ impl<S: Stored, M: Mixing<S>> NullaryFnOnce for Work<'_, '_, '_, S, M> {
             if index < count {
                 let run = patch.run(index % rows, index / rows * LANES);
                 let places = &mut next.places;
-                kernel.places.fill_lanes(
+                kernel.places.fill_lanes::<ROUNDS>(
                     run.chart,
                     run.row,
                     run.columns.start,
@@ -286,9 +302,14 @@ impl<S: Stored, M: Mixing<S>> NullaryFnOnce for Work<'_, '_, '_, S, M> {
                     places,
                 );
                 kernel.locate(next);
+                // Of the target, too: rows are too far apart for the processor to foresee where it will be written.
+                let at = patch.at(index % rows) + index / rows * (LANES * RGB);
+                for line in (0..LANES * RGB).step_by(CACHE_LINE_BYTES / size_of::<S>()) {
+                    prefetch(self.out, at + line);
+                }
             }
             if let Some(index) = index.checked_sub(1) {
-                kernel.load(now, &mut self.mixing);
+                kernel.load::<M>(now, &mut self.mixing);
                 let mixed = self.mixing.finish(&now.places);
                 let (row, column) = (index % rows, index / rows * LANES);
                 let at = patch.at(row) + column * RGB;
@@ -297,7 +318,7 @@ impl<S: Stored, M: Mixing<S>> NullaryFnOnce for Work<'_, '_, '_, S, M> {
                 out.copy_from_slice(&mixed[..samples]);
                 if now.has_off {
                     let run = patch.run(row, column);
-                    kernel.mend(&run, now, out);
+                    kernel.mend(&run, now, self.scratch, out);
                 }
             }
             std::mem::swap(&mut now, &mut next);
@@ -305,11 +326,32 @@ impl<S: Stored, M: Mixing<S>> NullaryFnOnce for Work<'_, '_, '_, S, M> {
     }
 }
 
+/// Between two samples; the same where they are alike.
+#[inline(always)]
+fn mix(from: f32, to: f32, share: f32) -> f32 {
+    from + (to - from) * share
+}
+
+/// Where a byte lies in the fraction of a float of [1, 2).
+const FRACTION: u32 = 15;
+
+/// Bits moved from one place to another.
+#[inline(always)]
+const fn moved(bits: u32, from: u32, to: u32) -> u32 {
+    if from < to {
+        bits << (to - from)
+    } else {
+        bits >> (from - to)
+    }
+}
+
 /// Bytes: mixed as floats, rounded to the nearest; off by half a step and 1e-4.
 #[repr(align(64))]
 struct Bytes {
-    /// The four taps' pixels, and a byte more in each.
-    taps: [[u32; LANES]; 4],
+    /// Two pixels, and two bytes more, of each of both rows, in halves.
+    found: [[u32; 4]; LANES],
+    /// The same, each half for itself: a loop over numbers of one size is as wide as vectors are.
+    halves: [[u32; LANES]; 4],
     packed: [u32; LANES],
     mixed: [u8; LANES * RGB],
 }
@@ -317,7 +359,8 @@ struct Bytes {
 impl Bytes {
     const fn new() -> Self {
         Self {
-            taps: [[0; LANES]; 4],
+            found: [[0; 4]; LANES],
+            halves: [[0; LANES]; 4],
             packed: [0; LANES],
             mixed: [0; LANES * RGB],
         }
@@ -326,26 +369,35 @@ impl Bytes {
 
 impl Mixing<u8> for Bytes {
     #[inline(always)]
-    fn take(&mut self, k: usize, taps: [&[u8; TAP]; 4], _: f32, _: f32) {
-        for (lane, tap) in self.taps.iter_mut().zip(taps) {
-            lane[k] = u32::from_le_bytes(*tap);
-        }
+    fn take(&mut self, k: usize, [above, under]: [&[u8; LOAD]; 2], _: f32, _: f32) {
+        let [above, under] = [u64::from_le_bytes(*above), u64::from_le_bytes(*under)];
+        self.found[k] = [above, above >> 32, under, under >> 32].map(|half| half as u32);
     }
 
     #[inline(always)]
     fn finish(&mut self, places: &PlaceLanes) -> &[u8; LANES * RGB] {
-        let byte = |tap: &[u32; LANES], k: usize, channel: usize| {
-            (tap[k] >> (8 * channel) & 255) as i32 as f32
+        // As 1 + byte/256: put where the fraction's upper bits are, 15 of which are left below, it need not be converted.
+        let byte = |row: [u32; 2], index: usize| {
+            let (half, from) = (row[index / 4], 8 * (index % 4) as u32);
+            f32::from_bits(moved(half, from, FRACTION) & (255 << FRACTION) | 1.0_f32.to_bits())
         };
-        let [first, right, under, last] = &self.taps;
         for k in 0..LANES {
+            for (half, found) in self.halves.iter_mut().zip(self.found[k]) {
+                half[k] = found;
+            }
+        }
+        let [above_a, above_b, under_a, under_b] = &self.halves;
+        for k in 0..LANES {
+            let (right, below) = (places.right[k], places.below[k]);
+            let (above, under) = ([above_a[k], above_b[k]], [under_a[k], under_b[k]]);
             let mut pixel = 0;
             for channel in 0..RGB {
-                let (a, b) = (byte(first, k, channel), byte(right, k, channel));
-                let (c, d) = (byte(under, k, channel), byte(last, k, channel));
-                let (a, c) = (a + (b - a) * places.right[k], c + (d - c) * places.right[k]);
-                let mixed = a + (c - a) * places.below[k];
-                pixel |= (nearest_whole(mixed) as u32) << (8 * channel);
+                let (a, b) = (byte(above, channel), byte(above, RGB + channel));
+                let (c, d) = (byte(under, channel), byte(under, RGB + channel));
+                let (a, c) = (mix(a, b, right), mix(c, d, right));
+                let mixed = mix(a, c, below);
+                let rounded = (mixed.to_bits() + (1 << (FRACTION - 1))) & (255 << FRACTION);
+                pixel |= moved(rounded, FRACTION, 8 * channel as u32);
             }
             self.packed[k] = pixel;
         }
@@ -376,13 +428,13 @@ impl Floats {
 
 impl Mixing<f32> for Floats {
     #[inline(always)]
-    fn take(&mut self, k: usize, [a, b, c, d]: [&[f32; TAP]; 4], right: f32, below: f32) {
+    fn take(&mut self, k: usize, [above, under]: [&[f32; LOAD]; 2], right: f32, below: f32) {
         // Four numbers at once, of which the next pixel writes over the fourth.
         let mut pixel = [0.0; TAP];
         for i in 0..TAP {
-            let above = a[i] + (b[i] - a[i]) * right;
-            let under = c[i] + (d[i] - c[i]) * right;
-            pixel[i] = above + (under - above) * below;
+            let above = mix(above[i], above[RGB + i], right);
+            let under = mix(under[i], under[RGB + i], right);
+            pixel[i] = mix(above, under, below);
         }
         self.mixed[RGB * k..RGB * k + 4].copy_from_slice(&pixel);
     }
@@ -409,13 +461,12 @@ macro_rules! kernel {
                 self.write_patch(&row, scratch, out);
             }
 
-            fn write_patch(&self, patch: &Patch, _: &mut Scratch, out: &mut [$type]) {
-                self.places.isa.run(Work {
-                    kernel: self,
-                    patch,
-                    out,
-                    mixing: $mixing::new(),
-                });
+            fn write_patch(&self, patch: &Patch, scratch: &mut Scratch, out: &mut [$type]) {
+                if self.places.rounds() {
+                    self.run::<_, true>(patch, scratch, out, $mixing::new());
+                } else {
+                    self.run::<_, false>(patch, scratch, out, $mixing::new());
+                }
             }
         }
     };

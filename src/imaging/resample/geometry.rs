@@ -55,6 +55,12 @@ impl Geometry {
         self.is_proportional() && self.source == self.target
     }
 
+    /// The source's own direction, of any length, of a place of the target.
+    pub fn source_dir(&self, chart: u32, at: [f64; 2]) -> Option<Vec3<f64>> {
+        let point = self.target_point(chart, at);
+        Some(self.turned(self.target.mapping.inverse(point)?))
+    }
+
     /// The source's chart point of a point of the target; `None` where the target has no direction.
     pub fn look<R: Real>(&self, point: ChartPoint<R>) -> Option<ChartPoint<R>> {
         self.source

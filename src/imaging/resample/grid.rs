@@ -5,7 +5,6 @@ use std::ops::Range;
 use super::geometry::Place;
 use crate::imaging::{MapShape, Siting};
 use crate::mapping::{ChartPoint, Domain, MappingId};
-use crate::math::Vec3;
 
 /// A chart's texels. Places are counted in texels: k is the middle of texel k, in either siting.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,13 +57,14 @@ impl Grid {
         point.chart * self.facets + self.mapping.facet(point)
     }
 
-    /// The direction of a point beyond one of its chart's parts.
-    pub fn beyond(&self, facet: u32, point: ChartPoint<f64>) -> Vec3<f64> {
-        if self.facets == self.mapping.facets() {
-            self.mapping.extended(facet, point)
+    /// The place of the direction of a point beyond one of its chart's parts.
+    pub fn folded(&self, facet: u32, point: ChartPoint<f64>) -> Option<Place> {
+        let found = if self.facets == self.mapping.facets() {
+            self.mapping.folded(facet, point)
         } else {
-            self.mapping.continued(point)
-        }
+            self.mapping.forward(self.mapping.continued(point))
+        };
+        found.map(|found| self.found(found))
     }
 
     /// The coordinate in [0, 1] of a place along side `side` (0: across, 1: down).

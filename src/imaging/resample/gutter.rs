@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::geometry::Place;
 use super::grid::Grid;
 use super::parts::{PartRow, part_rows};
+use super::strips::Threads;
 use crate::mapping::ChartPoint;
 
 /// Which texels beyond the map's parts (see [`Grid::part`]) a filter asks for, and where their light comes from. Depends on
@@ -23,49 +24,42 @@ pub(super) struct Gutter {
     /// Gutter texels of one chart.
     per_chart: usize,
     /// Where each gutter texel of each chart is looked up.
-    sources: Sources,
+    sources: Vec<Source>,
 }
 
-/// Where gutter texels get their light from: 11 bytes each. Places are counted from the one before the first texel on, in steps
-/// of a [`Sources::STEPS`]th, as near as [`super::grid::split`] tells them apart. Beyond a rim a texel's light is found from few
+/// Where a gutter texel gets its light from. Places are counted from the one before the first texel on, in steps of a
+/// [`Source::STEPS`]th, as near as [`super::grid::split`] tells them apart. Beyond a rim a texel's light is found from few
 /// that lie far, so that less would show.
-#[derive(Clone, Debug, Default)]
-struct Sources {
-    /// The lower 32 bits of the steps across and down.
-    steps: Vec<[u32; 2]>,
-    /// Part, or [`Sources::NOWHERE`], and the steps' upper bits.
-    parts: Vec<[u8; 3]>,
-}
+///
+/// The part, or [`Source::NOWHERE`], and the steps across and down, five bytes each.
+#[derive(Clone, Copy, Debug, Default)]
+struct Source([u8; 11]);
 
-impl Sources {
+impl Source {
     /// More than any mapping has parts.
     const NOWHERE: u8 = u8::MAX;
 
     const STEPS: u64 = 1 << 20;
 
-    fn reserve(&mut self, count: usize) {
-        self.steps.reserve_exact(count);
-        self.parts.reserve_exact(count);
-    }
-
-    fn push(&mut self, place: Option<Place>) {
-        let part = place.and_then(|place| u8::try_from(place.part).ok());
-        let steps = |at: f64| ((at + 1.0) * Self::STEPS as f64).round() as u64;
-        let [x, y] = place.map_or([0; 2], |place| place.at.map(steps));
-        self.steps.push([x, y].map(|steps| steps as u32));
-        self.parts.push([
-            part.unwrap_or(Self::NOWHERE),
-            (x >> 32) as u8,
-            (y >> 32) as u8,
-        ]);
+    fn new(place: Option<Place>) -> Self {
+        let mut bytes = [Self::NOWHERE; 11];
+        if let Some(place) = place
+            && let Ok(part) = u8::try_from(place.part)
+        {
+            bytes[0] = part;
+            for (bytes, at) in bytes[1..].chunks_exact_mut(5).zip(place.at) {
+                let steps = ((at + 1.0) * Self::STEPS as f64).round() as u64;
+                bytes.copy_from_slice(&steps.to_le_bytes()[..5]);
+            }
+        }
+        Self(bytes)
     }
 
     /// The part, the texel at or left of and above the place, and how far the place is from it.
-    fn get(&self, index: usize) -> Option<(u32, [i32; 2], [f32; 2])> {
-        let [part, x, y] = self.parts[index];
-        let low = self.steps[index];
-        let steps =
-            [(x, low[0]), (y, low[1])].map(|(high, low)| (u64::from(high) << 32) | u64::from(low));
+    fn get(self) -> Option<(u32, [i32; 2], [f32; 2])> {
+        let [part, a, b, c, d, e, f, g, h, i, j] = self.0;
+        let steps = [[a, b, c, d, e], [f, g, h, i, j]]
+            .map(|[a, b, c, d, e]| u64::from_le_bytes([a, b, c, d, e, 0, 0, 0]));
         (part != Self::NOWHERE).then(|| {
             (
                 u32::from(part),
@@ -84,6 +78,18 @@ struct Row {
     right: usize,
 }
 
+impl Row {
+    /// The column of the gutter texel with an index that is one of this row's.
+    fn column(&self, index: usize) -> i32 {
+        let PartRow { own, reached } = &self.texels;
+        if index < self.right {
+            reached.start + (index - self.left) as i32
+        } else {
+            own.end + (index - self.right) as i32
+        }
+    }
+}
+
 /// A texel of a chart: one of its own, or one of the gutter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Slot {
@@ -95,7 +101,7 @@ pub(super) enum Slot {
 
 impl Gutter {
     /// The gutter of a map's parts for filters that reach `reach` texels beyond the place.
-    pub fn new(grid: &Grid, reach: i32) -> Self {
+    pub fn new(grid: &Grid, reach: i32, threads: &Threads) -> Self {
         let mut per_chart = 0;
         let rows: Vec<Row> = part_rows(grid, reach)
             .into_iter()
@@ -111,24 +117,20 @@ impl Gutter {
             })
             .collect();
         let charts = grid.mapping.info().chart_count();
-        let mut sources = Sources::default();
-        sources.reserve(per_chart * charts as usize);
         let height = grid.size[1] as usize + 2 * reach as usize;
-        for chart in 0..charts {
-            for (facet, rows) in (0..).zip(rows.chunks(height)) {
-                for (row, y) in rows.iter().zip(-reach..) {
-                    for x in row.texels.gutter() {
-                        // A chart of few texels has a gutter wider than the chart: the inverse goes on for half a chart only.
-                        let coordinate = |side, place: i32| {
-                            grid.coordinate(side, f64::from(place)).clamp(-0.45, 1.45)
-                        };
-                        let point = ChartPoint::new(chart, coordinate(0, x), coordinate(1, y));
-                        let found = grid.mapping.forward(grid.beyond(facet, point));
-                        sources.push(found.map(|found| grid.found(found)));
-                    }
-                }
-            }
-        }
+        let source = |index: usize| {
+            let (chart, index) = (index / per_chart, index % per_chart);
+            let line = rows.partition_point(|row| row.left <= index) - 1;
+            let (facet, y) = (line / height, (line % height) as i32 - reach);
+            let x = rows[line].column(index);
+            // A chart of few texels has a gutter wider than the chart: the inverse goes on for half a chart only.
+            let coordinate =
+                |side, place: i32| grid.coordinate(side, f64::from(place)).clamp(-0.45, 1.45);
+            let point = ChartPoint::new(chart as u32, coordinate(0, x), coordinate(1, y));
+            Source::new(grid.folded(facet as u32, point))
+        };
+        let mut sources = vec![Source::default(); per_chart * charts as usize];
+        threads.fill_each(&mut sources, source);
         Self {
             reach,
             size: grid.size,
@@ -166,6 +168,7 @@ impl Gutter {
         })
     }
 
+    #[inline]
     pub fn slot(&self, part: u32, column: i32, row: i32) -> Slot {
         let (chart, facet) = self.chart(part);
         let Row {
@@ -193,12 +196,12 @@ impl Gutter {
 
     /// How many gutter texels there are.
     pub const fn len(&self) -> usize {
-        self.sources.parts.len()
+        self.sources.len()
     }
 
     /// The chart's own texel nearest to a gutter texel's place: chart, column, row.
     pub fn nearest_own(&self, index: usize) -> Option<(u32, [i32; 2])> {
-        let (part, texel, rest) = self.sources.get(index)?;
+        let (part, texel, rest) = self.sources[index].get()?;
         let (chart, _) = self.chart(part);
         let [mut column, mut row] = [0, 1].map(|side| {
             (texel[side] + i32::from(rest[side] >= 0.5)).clamp(0, self.size[side] as i32 - 1)
@@ -220,7 +223,7 @@ impl Gutter {
 
     /// The four texels around a gutter texel's place: part, texel, weight.
     pub fn around(&self, index: usize) -> impl Iterator<Item = (u32, [i32; 2], f32)> {
-        let source = self.sources.get(index);
+        let source = self.sources[index].get();
         [[0, 0], [1, 0], [0, 1], [1, 1]]
             .into_iter()
             .filter_map(move |step: [i32; 2]| {

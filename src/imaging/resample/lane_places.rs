@@ -5,11 +5,11 @@ use std::ops::Range;
 use pulp::NullaryFnOnce;
 
 use super::conversion::Conversion;
-use super::geometry::Geometry;
+use super::geometry::{Geometry, Place};
 use super::lookups::{Lookups, Places};
-use crate::mapping::{AngleLanes, DirLanes, LANES, Lane, Line, MappingId, PointLanes};
-use crate::math::Isa;
-use crate::math::floor_and_rest;
+use super::strips::Threads;
+use crate::mapping::{AngleLanes, DirLanes, LANES, Lane, Line, MappingId, PointLanes, cube_face};
+use crate::math::{Isa, Vec3, floor_and_rest};
 
 /// Places for mappings that compute many directions at once.
 ///
@@ -23,6 +23,9 @@ pub(super) struct LanePlaces {
     /// The four numbers of each column, with room for a whole block from any column on.
     columns: [Vec<f32>; 4],
     rows: Vec<Line>,
+    /// Where columns are meridians, rows parallels, and the source knows places of both: the charts that the columns cross. Columns
+    /// and rows then hold the source's numbers, not the target's.
+    graticule: Option<Vec<u32>>,
     /// For each chart whose columns lie in columns of the source.
     meridians: Vec<Option<Meridians>>,
     turn: Option<[[f32; 3]; 3]>,
@@ -37,8 +40,8 @@ struct Meridians {
     /// With room for a whole block from any column on.
     columns: Vec<i32>,
     right: Vec<f32>,
-    /// The turn has exchanged north and south.
-    is_upside_down: bool,
+    /// v on the equator, and what is added for each turn of the target's latitude: less where the turn has exchanged north and south.
+    parallels: [f32; 2],
 }
 
 /// The places of [`LANES`] texels: [`Lookups`] of a fixed length.
@@ -74,7 +77,7 @@ impl Default for PlaceLanes {
 
 impl LanePlaces {
     /// `None` where a mapping has no such form, or places are in proportion anyway.
-    pub fn new(geometry: &Geometry, isa: Isa) -> Option<Self> {
+    pub fn new(geometry: &Geometry, isa: Isa, threads: &Threads) -> Option<Self> {
         let (source, target) = (&geometry.source, &geometry.target);
         let is_able = source.mapping.has_lanes() && target.mapping.has_lanes();
         // Lanes know charts, not facets.
@@ -87,31 +90,50 @@ impl LanePlaces {
         if source.mapping.lanes_have_poles() && !is_upright {
             return None;
         }
-        let line = |side: usize, index: u32| {
-            let mut at = [0.0; 2];
-            at[side] = f64::from(index);
-            let point = geometry.target_point(0, at);
-            target
-                .mapping
-                .line(side, if side == 0 { point.u } else { point.v })
-        };
+        let charts = 0..target.mapping.info().chart_count();
+        let has_graticule = is_upright
+            && source.mapping.has_faces()
+            && target.mapping.parallels().is_some()
+            && charts
+                .clone()
+                .all(|chart| target.mapping.has_meridians(chart));
         let [width, height] = target.size;
-        let mut columns = [const { Vec::new() }; 4];
+        let line = |side: usize, index: u32| {
+            // Any row tells a longitude, any column a latitude; far from the poles longitudes are exact.
+            let mut at = [0.0, 0.5 * f64::from(height - 1)];
+            at[side] = f64::from(index);
+            if !has_graticule {
+                let point = geometry.target_point(0, at);
+                let coordinate = [point.u, point.v][side];
+                return Some((0, target.mapping.line(side, coordinate)));
+            }
+            let Vec3 { x, y, z } = geometry.source_dir(0, at)?;
+            let radius = x.hypot(z);
+            Some(if side == 0 {
+                cube_face::meridian([x / radius, z / radius])
+            } else {
+                (0, cube_face::parallel([radius, y]))
+            })
+        };
+        let (mut columns, mut crossed) = ([const { Vec::new() }; 4], Vec::new());
         for column in 0..width + LANES as u32 {
-            for (list, number) in columns.iter_mut().zip(line(0, column.min(width - 1))) {
+            let (chart, numbers) = line(0, column.min(width - 1))?;
+            crossed.push(chart);
+            for (list, number) in columns.iter_mut().zip(numbers) {
                 list.push(number);
             }
         }
-        let charts = 0..target.mapping.info().chart_count();
+        let rows = (0..height).map(|row| Some(line(1, row)?.1));
         let is_turned = geometry.turn != Conversion::UNTURNED;
         Some(Self {
             isa,
             source: source.mapping,
             target: target.mapping,
             columns,
-            rows: (0..height).map(|row| line(1, row)).collect(),
+            rows: rows.collect::<Option<_>>()?,
+            graticule: has_graticule.then_some(crossed),
             meridians: charts
-                .map(|chart| Meridians::new(geometry, chart).filter(|_| is_upright))
+                .map(|chart| Meridians::new(geometry, chart, threads).filter(|_| is_upright))
                 .collect(),
             turn: is_turned.then(|| geometry.turn.map(|row| row.map(|c| c as f32))),
             scale: [0, 1].map(|side| source.density(side) as f32),
@@ -119,9 +141,9 @@ impl LanePlaces {
         })
     }
 
-    /// The places of the texels from `column` on.
+    /// The places of the texels from `column` on. `ROUNDS`: see [`floor_and_rest`].
     #[inline(always)]
-    pub fn fill_lanes(
+    pub fn fill_lanes<const ROUNDS: bool>(
         &self,
         chart: u32,
         row: u32,
@@ -147,62 +169,80 @@ impl LanePlaces {
         let [scale, offset] = [self.scale, self.offset];
         if let Some(Some(meridians)) = self.meridians.get(chart as usize) {
             self.target.latitude_lanes(columns, row, latitudes);
-            if meridians.is_upside_down {
-                for k in 0..LANES {
-                    latitudes.base[k] = -latitudes.base[k];
-                    latitudes.rest[k] = -latitudes.rest[k];
-                }
-            }
-            self.source.parallel_lanes(latitudes, points);
             meridians.fill(first, places);
+            // v = equator + slope (base + rest)
+            let [equator, slope] = meridians.parallels;
+            let base = equator + slope * latitudes.base;
             for k in 0..LANES {
-                (places.row[k], places.below[k]) =
-                    placed(points.base_v[k], points.rest_v[k], scale[1], offset[1]);
+                (places.row[k], places.below[k]) = placed::<ROUNDS>(
+                    base,
+                    latitudes.rest[k],
+                    [scale[1], slope * scale[1]],
+                    offset[1],
+                );
             }
             return;
         }
-        self.target.inverse_lanes(chart, columns, row, dirs);
-        if let Some([a, b, c]) = self.turn {
-            for k in 0..LANES {
-                let (x, y, z) = (dirs.x[k], dirs.y[k], dirs.z[k]);
-                dirs.x[k] = a[0] * x + a[1] * y + a[2] * z;
-                dirs.y[k] = b[0] * x + b[1] * y + b[2] * z;
-                dirs.z[k] = c[0] * x + c[1] * y + c[2] * z;
+        if let Some(crossed) = &self.graticule {
+            if let Some(charts) = crossed.get(first..).and_then(|list| list.first_chunk()) {
+                self.source.graticule_lanes((charts, columns), row, points);
             }
+        } else {
+            self.target.inverse_lanes(chart, columns, row, dirs);
+            if let Some([a, b, c]) = self.turn {
+                for k in 0..LANES {
+                    let (x, y, z) = (dirs.x[k], dirs.y[k], dirs.z[k]);
+                    dirs.x[k] = a[0] * x + a[1] * y + a[2] * z;
+                    dirs.y[k] = b[0] * x + b[1] * y + b[2] * z;
+                    dirs.z[k] = c[0] * x + c[1] * y + c[2] * z;
+                }
+            }
+            self.source.forward_lanes(dirs, points);
         }
-        self.source.forward_lanes(dirs, points);
         places.chart = points.chart;
+        let [scale_u, scale_v] = scale.map(|scale| [scale; 2]);
+        if let Some(base) = points.base {
+            for k in 0..LANES {
+                (places.column[k], places.right[k]) =
+                    placed::<ROUNDS>(base, points.rest_u[k], scale_u, offset[0]);
+                (places.row[k], places.below[k]) =
+                    placed::<ROUNDS>(base, points.rest_v[k], scale_v, offset[1]);
+            }
+            return;
+        }
         for k in 0..LANES {
             (places.column[k], places.right[k]) =
-                placed(points.base_u[k], points.rest_u[k], scale[0], offset[0]);
+                placed::<ROUNDS>(points.base_u[k], points.rest_u[k], scale_u, offset[0]);
         }
         for k in 0..LANES {
             (places.row[k], places.below[k]) =
-                placed(points.base_v[k], points.rest_v[k], scale[1], offset[1]);
+                placed::<ROUNDS>(points.base_v[k], points.rest_v[k], scale_v, offset[1]);
         }
     }
 }
 
 impl Meridians {
-    fn new(geometry: &Geometry, chart: u32) -> Option<Self> {
+    fn new(geometry: &Geometry, chart: u32, threads: &Threads) -> Option<Self> {
         let (source, target) = (&geometry.source, &geometry.target);
-        if !source.mapping.has_parallels() || !target.mapping.has_meridians(chart) {
+        let [equator, slope] = source.mapping.parallels()?;
+        if !target.mapping.has_meridians(chart) {
             return None;
         }
         let [width, height] = target.size;
         // Any row tells the longitude; far from the poles it is exact.
         let row = 0.5 * f64::from(height - 1);
         let place = |column: u32| geometry.place(chart, [f64::from(column.min(width - 1)), row]);
-        let (mut columns, mut right) = (Vec::new(), Vec::new());
-        for column in 0..width + LANES as u32 {
-            let [x, _] = place(column)?.at;
-            columns.push(x.floor() as i32);
-            right.push((x - x.floor()) as f32);
-        }
+        let mut places = vec![None; width as usize + LANES];
+        threads.fill_each(&mut places, |column| place(column as u32));
+        let places = places.into_iter().collect::<Option<Vec<_>>>()?;
+        let whole = |place: &Place| place.at[0].floor();
         Some(Self {
-            columns,
-            right,
-            is_upside_down: geometry.turn[1][1] < 0.0,
+            columns: places.iter().map(|place| whole(place) as i32).collect(),
+            right: places
+                .iter()
+                .map(|place| (place.at[0] - whole(place)) as f32)
+                .collect(),
+            parallels: [equator, slope * geometry.turn[1][1].signum() as f32],
         })
     }
 
@@ -221,15 +261,17 @@ impl Meridians {
     }
 }
 
-/// Texel and rest of a coordinate. The base's place is exact: a multiple of 1/8 with at most 20 more bits.
+/// Texel and rest of a coordinate in two parts, each with its scale. The base's place is exact: a multiple of 1/8 with at most 20
+/// more bits.
 #[inline(always)]
-fn placed(base: f32, rest: f32, scale: f32, offset: f32) -> (i32, f32) {
-    let (whole, part) = floor_and_rest(base * scale + offset);
-    let (more, part) = floor_and_rest(rest * scale + part);
+fn placed<const ROUNDS: bool>(base: f32, rest: f32, scale: [f32; 2], offset: f32) -> (i32, f32) {
+    let (whole, part) = floor_and_rest::<ROUNDS>(base * scale[0] + offset);
+    let (more, part) = floor_and_rest::<ROUNDS>(rest * scale[1] + part);
     (whole.wrapping_add(more), part)
 }
 
-struct Fill<'a> {
+/// A run of texels, compiled for a set of instructions.
+struct Fill<'a, const ROUNDS: bool> {
     places: &'a LanePlaces,
     chart: u32,
     row: u32,
@@ -237,7 +279,7 @@ struct Fill<'a> {
     out: &'a mut Lookups,
 }
 
-impl NullaryFnOnce for Fill<'_> {
+impl<const ROUNDS: bool> NullaryFnOnce for Fill<'_, ROUNDS> {
     type Output = ();
 
     #[inline(always)]
@@ -246,8 +288,13 @@ impl NullaryFnOnce for Fill<'_> {
         let mut places = PlaceLanes::default();
         let mut at = 0;
         for column in self.columns.clone().step_by(LANES) {
-            self.places
-                .fill_lanes(self.chart, self.row, column, &mut scratch, &mut places);
+            self.places.fill_lanes::<ROUNDS>(
+                self.chart,
+                self.row,
+                column,
+                &mut scratch,
+                &mut places,
+            );
             let count = LANES.min((self.columns.end - column) as usize);
             let range = at..at + count;
             self.out.chart[range.clone()].copy_from_slice(&places.chart[..count]);
@@ -263,12 +310,33 @@ impl NullaryFnOnce for Fill<'_> {
 impl Places for LanePlaces {
     fn fill(&self, chart: u32, row: u32, columns: Range<u32>, out: &mut Lookups) {
         out.resize(columns.len());
-        self.isa.run(Fill {
+        if self.rounds() {
+            self.fill_by::<true>(chart, row, columns, out);
+        } else {
+            self.fill_by::<false>(chart, row, columns, out);
+        }
+    }
+}
+
+impl LanePlaces {
+    fn fill_by<const ROUNDS: bool>(
+        &self,
+        chart: u32,
+        row: u32,
+        columns: Range<u32>,
+        out: &mut Lookups,
+    ) {
+        self.isa.run(Fill::<ROUNDS> {
             places: self,
             chart,
             row,
             columns,
             out,
         });
+    }
+
+    /// Whether the instructions round: see [`floor_and_rest`].
+    pub fn rounds(&self) -> bool {
+        self.isa != Isa::Baseline
     }
 }

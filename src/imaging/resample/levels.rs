@@ -98,10 +98,10 @@ fn fill<S: Stored, const N: usize>(
     let mut grid = Grid::of(shape);
     grid.facets = 1;
     // Only texels of the charts are asked for.
-    let gutter = Gutter::new(&grid, 0);
+    let gutter = Gutter::new(&grid, 0, plan.threads());
     let decoder = Decoder::of(shape.samples, shape.transfer, plan.working());
     let kernel = Halving {
-        texels: Texels::<S, N>::new(last, decoder, &gutter, true),
+        texels: Texels::<S, N>::new(last, decoder, &gutter, true, plan.threads()),
         pieces,
         encoder: plan.encoder(),
     };

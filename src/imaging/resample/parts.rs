@@ -24,11 +24,6 @@ impl PartRow {
         let reached = reached.start.min(own.start)..reached.end.max(own.end);
         Self { own, reached }
     }
-
-    /// The columns of the gutter.
-    pub fn gutter(&self) -> impl Iterator<Item = i32> + use<> {
-        (self.reached.start..self.own.start).chain(self.own.end..self.reached.end)
-    }
 }
 
 /// The rows from `reach` above a chart to `reach` below it, of each of its facets, one facet after another.

@@ -67,8 +67,9 @@ impl Plan {
             Layout::Faces => vec![conversion.size; target.charts.iter().flatten().count()],
             layout => MapShape::raster_sizes(conversion.mapping, layout, conversion.size),
         };
+        let threads = Threads::new(conversion.threads);
         let mut geometry = Geometry::new(source, &target, conversion);
-        let survey = Survey::of(&geometry, &target);
+        let survey = Survey::of(&geometry, &target, &threads);
         let filter = conversion.filter.unwrap_or(if survey.minifies {
             Filter::Area
         } else {
@@ -82,10 +83,14 @@ impl Plan {
             pictures,
             conversion: conversion.clone(),
             filter,
-            gutter: Gutter::new(&geometry.source, reach(filter)),
-            lanes: LanePlaces::new(&geometry, conversion.isa.unwrap_or(Isa::Avx512).available()),
+            gutter: Gutter::new(&geometry.source, reach(filter), &threads),
+            lanes: LanePlaces::new(
+                &geometry,
+                conversion.isa.unwrap_or(Isa::Avx512).available(),
+                &threads,
+            ),
             geometry,
-            threads: Threads::new(conversion.threads),
+            threads,
             largest_footprint: survey.largest,
             outside: outside_discs(&target),
             target,
@@ -187,6 +192,7 @@ impl Plan {
                 decoder,
                 &self.gutter,
                 self.filter == Filter::Nearest,
+                &self.threads,
             ),
             filter: self.filter,
         };
@@ -217,6 +223,10 @@ impl Plan {
                 || self.conversion.filtered_in == FilteredIn::Codes)
             && self.conversion.exposure_ev == 0.0
             && !self.conversion.dither
+    }
+
+    pub(super) const fn threads(&self) -> &Threads {
+        &self.threads
     }
 
     pub(super) fn encoder(&self) -> Encoder {
@@ -395,36 +405,35 @@ struct Survey {
 }
 
 impl Survey {
-    fn of(geometry: &Geometry, target: &MapShape) -> Self {
+    fn of(geometry: &Geometry, target: &MapShape, threads: &Threads) -> Self {
         const SIDE: u32 = 24;
+        let charts = target.charts.iter().enumerate();
+        let wanted: Vec<u32> = charts
+            .filter_map(|(chart, placement)| placement.as_ref().map(|_| chart as u32))
+            .collect();
+        let [across, down] = target.size.map(|n| n.min(SIDE) as usize);
+        let mut footprints = vec![None; wanted.len() * across * down];
+        threads.fill_each(&mut footprints, |index| {
+            let (chart, index) = (wanted[index / (across * down)], index % (across * down));
+            let at = [(index % across, across), (index / across, down)];
+            // The middle of the texel that lies there.
+            let at = [0, 1].map(|side| {
+                let (index, steps) = at[side];
+                let share = (index as f64 + 0.5) / steps as f64;
+                (share * f64::from(target.size[side])).floor()
+            });
+            geometry.footprint(chart, at)
+        });
         let (mut largest, mut many, mut all) = (0.0_f64, 0_u32, 0_u32);
-        for (chart, _) in target
-            .charts
-            .iter()
-            .enumerate()
-            .filter(|(_, placement)| placement.is_some())
-        {
-            let steps = target.size.map(|n| n.min(SIDE));
-            for j in 0..steps[1] {
-                for i in 0..steps[0] {
-                    let at = [(i, 0), (j, 1)].map(|(index, side)| {
-                        // The middle of the texel that lies there.
-                        let share = (f64::from(index) + 0.5) / f64::from(steps[side]);
-                        (share * f64::from(target.size[side])).floor()
-                    });
-                    let Some(footprint) = geometry.footprint(chart as u32, at) else {
-                        continue;
-                    };
-                    let area = footprint.area();
-                    if !area.is_finite() {
-                        continue;
-                    }
-                    all += 1;
-                    many += u32::from(area > 2.0);
-                    let [a, b] = footprint.lengths();
-                    largest = largest.max(a).max(b);
-                }
+        for footprint in footprints.into_iter().flatten() {
+            let area = footprint.area();
+            if !area.is_finite() {
+                continue;
             }
+            all += 1;
+            many += u32::from(area > 2.0);
+            let [a, b] = footprint.lengths();
+            largest = largest.max(a).max(b);
         }
         Self {
             largest,

@@ -236,6 +236,24 @@ impl Threads {
         }
     }
 
+    /// Puts at each index of a list what `value` says of it.
+    pub fn fill_each<T: Send>(&self, list: &mut [T], value: impl Fn(usize) -> T + Sync) {
+        /// Indices that a thread takes at once.
+        const MANY: usize = 256;
+        let fill = |(part, list): (usize, &mut [T])| {
+            for (index, item) in (part * MANY..).zip(list) {
+                *item = value(index);
+            }
+        };
+        self.run(|is_alone| {
+            if is_alone {
+                list.chunks_mut(MANY).enumerate().for_each(fill);
+            } else {
+                list.par_chunks_mut(MANY).enumerate().for_each(fill);
+            }
+        });
+    }
+
     /// Runs `work`, which is told whether it is alone.
     fn run<R: Send>(&self, work: impl FnOnce(bool) -> R + Send) -> R {
         match self {

@@ -1,8 +1,12 @@
 //! The source's texels where they lie, and the light of the gutter around them.
 
+use std::sync::Mutex;
+
 use super::filter::Mix;
 use super::gutter::{Gutter, Slot};
+use super::prefetch::prefetch;
 use super::stored::{Decoder, Stored};
+use super::strips::Threads;
 use crate::imaging::{EnvironmentMap, MapShape, Placement};
 
 /// Where the pixels of a chart lie in a picture: sample 0 of the pixel of texel (0, 0), and the steps to the next texel to the
@@ -41,8 +45,12 @@ impl Strides {
 /// the sixth digit.
 const SWEEPS: u32 = 4;
 
-/// A gutter texel that gets less than this from others is not found again: what they change is below a float's last digit.
+/// What weighs less than this in a gutter texel is left out, and where others of the gutter weigh no more together, it is not found
+/// again: what they change is below a float's last digit.
 const LITTLE: f32 = 1.0 / (1_u32 << 20) as f32;
+
+/// How many gutter texels ahead their memory is asked for.
+const AHEAD: usize = 16;
 
 /// A colour to mix, and opacity. Not premultiplied.
 pub(super) type Pixel = [f32; 4];
@@ -57,12 +65,13 @@ pub(super) struct Texels<'a, S, const N: usize> {
 }
 
 impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
-    /// `mix` finds the light of a place from the texels, as the filter's own way does or simpler.
+    /// `is_nearest` when no light is mixed: then the gutter's texels are the nearest of the charts' own.
     pub fn new(
         map: &'a EnvironmentMap,
         decoder: Decoder,
         gutter: &'a Gutter,
         is_nearest: bool,
+        threads: &Threads,
     ) -> Self {
         let shape = map.shape();
         let charts = shape.charts.iter().map(|placement| {
@@ -75,35 +84,56 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
             charts: charts.collect(),
             decoder,
             gutter,
-            light: vec![[0.0; N]; gutter.len()],
+            light: Vec::new(),
         };
-        texels.fill_gutter(is_nearest);
+        texels.fill_gutter(is_nearest, threads);
         texels
     }
 
-    fn fill_gutter(&mut self, is_nearest: bool) {
-        let count = self.gutter.len();
-        for index in 0..count {
-            if let Some((chart, [column, row])) = self.gutter.nearest_own(index) {
-                self.light[index] = stored(self.own(chart, column, row));
-            }
-        }
+    fn fill_gutter(&mut self, is_nearest: bool, threads: &Threads) {
+        let mut light = vec![[0.0; N]; self.gutter.len()];
         if is_nearest {
+            threads.fill_each(&mut light, |index| stored(self.nearest_own(index)));
+            self.light = light;
             return;
         }
         // Most lie between texels that charts own, or nearly: what they get at first is final.
-        let mut others = Vec::new();
-        for index in 0..count {
-            let (light, is_final) = self.settled(index);
-            self.light[index] = stored(light);
-            if !is_final {
-                others.push(index as u32);
+        let others = Mutex::new(Vec::new());
+        threads.fill_each(&mut light, |index| {
+            self.foresee(index + AHEAD);
+            let (light, is_final) = self.settled(index, |index| self.nearest_own(index));
+            if !is_final && let Ok(mut others) = others.lock() {
+                others.push(index);
+            }
+            stored(light)
+        });
+        self.light = light;
+        let mut others = others.into_inner().unwrap_or_default();
+        // In the same order however many threads there are.
+        others.sort_unstable();
+        for _ in 1..SWEEPS {
+            for index in &others {
+                let (light, _) = self.settled(*index, |index| self.in_gutter(index));
+                self.light[*index] = stored(light);
             }
         }
-        for _ in 1..SWEEPS {
-            for index in others.iter().map(|index| *index as usize) {
-                self.light[index] = stored(self.settled(index).0);
-            }
+    }
+
+    /// Asks for the memory of what a gutter texel shows.
+    fn foresee(&self, index: usize) {
+        if index < self.gutter.len()
+            && let Some((chart, [column, row])) = self.gutter.nearest_own(index)
+            && let Some(Some((samples, strides))) = self.charts.get(chart as usize)
+        {
+            prefetch(samples, strides.at(column, row));
+        }
+    }
+
+    /// The texel of a chart nearest to a gutter texel's place; black where there is none.
+    fn nearest_own(&self, index: usize) -> Pixel {
+        match self.gutter.nearest_own(index) {
+            Some((chart, [column, row])) => self.own(chart, column, row),
+            None => kept([0.0; N]),
         }
     }
 
@@ -111,10 +141,10 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
     ///
     /// Just beyond a rim, the texels around that place lie just beyond the other side's rim, and theirs is this texel again.
     /// Passing light to and fro between the two would take for ever, so where a texel of the gutter comes in, its own four are
-    /// put in its place, and what comes back to this texel is left out of the mean: that solves the pair. Also tells whether other
-    /// texels of the gutter still count for little.
-    fn settled(&self, index: usize) -> (Pixel, bool) {
-        let mut mix = Mix::around(self.in_gutter(index));
+    /// put in its place, and what comes back to this texel is left out of the mean: that solves the pair. `known` says what is
+    /// known so far of the others that still come in. Also tells whether they count for little.
+    fn settled(&self, index: usize, known: impl Fn(usize) -> Pixel) -> (Pixel, bool) {
+        let mut mix = Mix::around(known(index));
         let mut open = 0.0;
         for (part, [column, row], weight) in self.gutter.around(index) {
             match self.gutter.slot(part, column, row) {
@@ -122,16 +152,23 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
                     let (chart, _) = self.gutter.chart(part);
                     mix.add(self.own(chart, column, row), weight);
                 }
-                Slot::Gutter(other) if other == index => {}
+                Slot::Gutter(other) if other == index || weight < LITTLE => {}
                 Slot::Gutter(other) => {
                     for (part, [column, row], share) in self.gutter.around(other) {
-                        let slot = self.gutter.slot(part, column, row);
-                        if slot != Slot::Gutter(index) {
-                            if slot != Slot::Own {
-                                open += weight * share;
-                            }
-                            mix.add(self.in_slot(slot, part, column, row), weight * share);
+                        if weight * share < LITTLE {
+                            continue;
                         }
+                        let slot = self.gutter.slot(part, column, row);
+                        let light = match slot {
+                            Slot::Own => self.own(self.gutter.chart(part).0, column, row),
+                            Slot::Gutter(third) if third == index => continue,
+                            Slot::Gutter(third) => {
+                                open += weight * share;
+                                known(third)
+                            }
+                            Slot::Beyond => [0.0; 4],
+                        };
+                        mix.add(light, weight * share);
                     }
                 }
                 Slot::Beyond => {}
@@ -142,11 +179,10 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
     }
 
     fn in_gutter(&self, index: usize) -> Pixel {
-        let mut pixel = [0.0, 0.0, 0.0, 1.0];
-        pixel[..N].copy_from_slice(&self.light[index]);
-        pixel
+        kept(self.light[index])
     }
 
+    #[inline]
     fn pixel(&self, samples: &[S], at: usize) -> Pixel {
         let Some(stored) = samples.get(at..at + N) else {
             return [0.0; 4];
@@ -162,6 +198,7 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
     }
 
     /// A texel of a chart.
+    #[inline]
     pub fn own(&self, chart: u32, column: i32, row: i32) -> Pixel {
         match self.charts.get(chart as usize) {
             Some(Some((samples, strides))) => self.pixel(samples, strides.at(column, row)),
@@ -218,4 +255,11 @@ impl<'a, S: Stored, const N: usize> Texels<'a, S, N> {
 /// What of a pixel a gutter texel keeps.
 fn stored<const N: usize>(pixel: Pixel) -> [f32; N] {
     std::array::from_fn(|channel| pixel[channel])
+}
+
+/// What a gutter texel keeps, as a pixel: opaque where opacity is not kept.
+fn kept<const N: usize>(light: [f32; N]) -> Pixel {
+    let mut pixel = [0.0, 0.0, 0.0, 1.0];
+    pixel[..N].copy_from_slice(&light);
+    pixel
 }

@@ -52,7 +52,7 @@ impl<const CUBIC: bool> Table<CUBIC> {
     /// The function at |t| <= 1.
     #[inline(always)]
     fn look_up<const FUSED: bool>(self, entries: &Entries, t: f32) -> f32 {
-        let (whole, rest) = floor_and_rest(t.abs() * self.steps);
+        let (whole, rest) = floor_and_rest::<FUSED>(t.abs() * self.steps);
         // Never more than a table's last step; the bound lets the compiler leave its own checks out.
         let at = (whole as u32 as usize).min(MOST);
         if !CUBIC {
