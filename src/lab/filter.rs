@@ -80,15 +80,16 @@ impl Filter<'_> {
     }
 }
 
-/// Which of the rows are on their mapping's front among these rows. What has holes is no answer, however fast.
+/// Which of the rows are on the front of their mapping and device among these rows. What has holes is no answer, however fast.
 pub fn fronts(rows: &[&Row]) -> Vec<bool> {
     let mut fronts = vec![false; rows.len()];
-    let mut maps: Vec<&str> = rows.iter().map(|row| row.mapping).collect();
-    maps.sort_unstable();
-    maps.dedup();
-    for map in maps {
+    let key = |row: &Row| (row.mapping, row.device.clone());
+    let mut groups: Vec<_> = rows.iter().map(|row| key(row)).collect();
+    groups.sort_unstable();
+    groups.dedup();
+    for group in groups {
         let cost = |row: &Row| match row.holes {
-            0 if row.mapping == map => (row.ns, row.max_error_rad),
+            0 if key(row) == group => (row.ns, row.max_error_rad),
             _ => (f64::NAN, f64::NAN),
         };
         let costs: Vec<(f64, f64)> = rows.iter().map(|row| cost(row)).collect();

@@ -8,7 +8,7 @@ use crate::app::action::Action;
 use crate::app::model::Model;
 use crate::app::plots::still_plot;
 use crate::app::theme;
-use crate::lab::bench::Row;
+use crate::lab::bench::{CPU, Row};
 use crate::lab::scatter::{LogAxis, front_steps};
 use crate::mapping::MappingId;
 
@@ -149,7 +149,11 @@ pub fn plot_ui(ui: &mut Ui, model: &mut Model<'_>, shown: &[Shown<'_>], size: Ve
     let transform = response.transform;
     let painter = ui.painter_at(*transform.frame());
     for map in maps {
-        paint_front(&painter, map, &placed, &transform);
+        for is_processor in [true, false] {
+            let of_device = |(row, _): &&Shown<'_>| (row.device == CPU) == is_processor;
+            let own: Vec<Shown<'_>> = placed.iter().filter(of_device).copied().collect();
+            paint_front(&painter, map, &own, &transform);
+        }
     }
     points_ui(ui, model, &placed, &transform);
     paint_names(&painter, &placed, &transform);
@@ -234,8 +238,7 @@ fn points_ui(ui: &mut Ui, model: &mut Model<'_>, placed: &[Shown<'_>], transform
         }
         let is_used = used.is_some_and(|used| {
             let is_it = |choice: &crate::lab::choice::Choice<'_>| {
-                (choice.row.mapping, choice.row.evaluator, choice.row.isa)
-                    == (row.mapping, row.evaluator, row.isa)
+                (choice.row.mapping, choice.row.evaluator) == (row.mapping, row.evaluator)
             };
             used.measured.as_ref().is_some_and(is_it)
         });

@@ -18,12 +18,12 @@ use crate::mapping::MappingId;
 
 /// Each column with its title and width in letters; the words stand at the left.
 const COLUMNS: [(Column, &str, usize); 9] = [
-    (Column::Mapping, "mapping", 12),
+    (Column::Mapping, "mapping", 23),
     (Column::Evaluator, "evaluator", 17),
     (Column::Device, "device", 13),
     (Column::Time, "ns", 9),
     (Column::Copies, "× copy", 9),
-    (Column::Reference, "× reference", 12),
+    (Column::Reference, "× reference", 13),
     (Column::Largest, "max rad", 10),
     (Column::Rms, "RMS rad", 10),
     (Column::Texels, "max texel", 11),
@@ -73,7 +73,9 @@ impl Entry<'_> {
     }
 }
 
+/// A cell as wide as its column; an adapter's long name is cut.
 fn padded(text: &str, column: usize, width: usize) -> String {
+    let text: String = text.chars().take(width - 1).collect();
     if column < WORDS {
         format!("{text:width$}")
     } else {
