@@ -20,7 +20,10 @@ fn state(ui: &Ui) -> &AppState {
     ui.state().explorer().state()
 }
 
+/// As a user does it: what lies below the fold is scrolled to.
 fn click(ui: &mut Ui, label: &str) {
+    ui.get_by_label(label).scroll_to_me();
+    settle(ui);
     ui.get_by_label(label).click();
     settle(ui);
 }
