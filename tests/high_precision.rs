@@ -3,6 +3,11 @@
 //! The formulas are those that the articles print, not the stable forms that the mappings compute, so that the two have nothing
 //! in common but the map.
 
+#![expect(
+    clippy::unwrap_used,
+    reason = "helpers of tests say what they expect by unwrapping"
+)]
+
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
