@@ -1,4 +1,4 @@
-// The six faces: twin of src/mapping/cube_face.rs; and the octahedron's folding: twin of src/mapping/octahedral.rs.
+// The six faces: twin of src/mapping/cube_face.rs and face_map.rs; and the octahedron's folding: twin of src/mapping/octahedral.rs.
 
 struct Gnomonic {
     face: u32,
@@ -71,6 +71,34 @@ fn gnomonic(dir: vec3f, face: u32) -> Gnomonic {
 
 fn from_gnomonic(face: u32, a: f32, b: f32) -> vec3f {
     return unit(from_frame(face, a, b, 1.0));
+}
+
+// The place on a face that is nearest to a chart point, and the one as far inside as the point is outside: twice.
+struct MirroredPlace {
+    border: vec2f,
+    inside: vec2f,
+}
+
+fn mirrored_place(p: ChartPoint) -> MirroredPlace {
+    let place = 2.0 * vec2f(p.u, p.v) - vec2f(1.0);
+    let border = clamp(place, vec2f(-1.0), vec2f(1.0));
+    return MirroredPlace(border, 2.0 * border - place);
+}
+
+// Beyond the face: on along its plane, by the border's double less what lies as far inside.
+fn from_mirrored_place(face: u32, border: vec2f, inside: vec2f) -> vec3f {
+    let plane = 2.0 * border - inside;
+    return from_gnomonic(face, plane.x, plane.y);
+}
+
+// A place in [-1, 1] on an axis that is divided by the solid angle of the strips between lines.
+fn strip_of_plane(a: f32) -> f32 {
+    return atan_unit(a / sqrt(a * a + 2.0)) * (6.0 * FRAC_1_PI);
+}
+
+fn plane_of_strip(p: f32) -> f32 {
+    let t = tan_turns(p * (1.0 / 12.0));
+    return t * sqrt(2.0 / (1.0 - t * t));
 }
 
 fn octahedron_fold(plane: vec2f) -> vec2f {

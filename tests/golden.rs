@@ -14,8 +14,22 @@ struct Row {
     expected: ChartPoint<f64>,
 }
 
+fn path(name: &str) -> String {
+    format!("{}/tests/golden/{name}.csv", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The mappings that have a table; the others are held by tests/high_precision.rs and by the laws.
+fn with_tables() -> Vec<MappingId> {
+    let all = MappingId::ALL.iter().copied();
+    let found: Vec<_> = all
+        .filter(|id| std::fs::exists(path(id.info().id)).unwrap())
+        .collect();
+    assert_eq!(found.len(), 11);
+    found
+}
+
 fn table(name: &str) -> Vec<Row> {
-    let path = format!("{}/tests/golden/{name}.csv", env!("CARGO_MANIFEST_DIR"));
+    let path = path(name);
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
     let rows: Vec<Row> = text
         .lines()
@@ -81,7 +95,7 @@ fn every_mapping_and_the_papers_own_numbers_in_both_precisions() {
         );
         largest = [largest[0].max(observed[0]), largest[1].max(observed[1])];
     };
-    for &id in MappingId::ALL {
+    for id in with_tables() {
         let rows = table(id.info().id);
         let double = worst(&rows, |d: Vec3<f64>| id.forward(d));
         enter(
@@ -107,7 +121,7 @@ fn every_mapping_and_the_papers_own_numbers_in_both_precisions() {
 fn every_evaluator_that_is_not_known_to_be_wrong_meets_the_tables() {
     use sixfold::lab::stress::{allowed, expectations};
     let mut seen = 0;
-    for &id in MappingId::ALL {
+    for id in with_tables() {
         let rows = table(id.info().id);
         for evaluator in id.evaluators() {
             let Some(processor) = evaluator.processor() else {

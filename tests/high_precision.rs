@@ -12,8 +12,8 @@ use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use astro_float::{BigFloat, Consts, RoundingMode};
-use sixfold::mapping::MappingId;
 use sixfold::mapping::cube_face::to_frame;
+use sixfold::mapping::{MappingId, algebraic, everitt, tangent};
 use sixfold::math::Vec3;
 use sixfold::math::inputs::{Random, SIGN_PATTERNS};
 
@@ -56,6 +56,14 @@ impl Big {
 
     fn acos(&self) -> Self {
         call(|constants| self.0.acos(BITS, TO_NEAREST, constants))
+    }
+
+    fn sin_cos(&self) -> (Self, Self) {
+        let sin = call(|constants| self.0.sin(BITS, TO_NEAREST, constants));
+        (
+            sin,
+            call(|constants| self.0.cos(BITS, TO_NEAREST, constants)),
+        )
     }
 
     fn atan(&self) -> Self {
@@ -122,7 +130,8 @@ impl Neg for Big {
     }
 }
 
-/// (u, v) of a direction on a chart by the formulas of the literature; `None` for a mapping that has none here.
+/// (u, v) of a direction on a chart by the formulas of the literature; `None` for a mapping that has none here, and where a formula
+/// has no value.
 fn literature(map: MappingId, chart: u32, dir: [f64; 3]) -> Option<[Big; 2]> {
     let [x, y, z] = dir.map(big);
     let (one, two) = (big(1.0), big(2.0));
@@ -193,7 +202,6 @@ fn literature(map: MappingId, chart: u32, dir: [f64; 3]) -> Option<[Big; 2]> {
             } else {
                 (right, ahead)
             };
-            let signed = |c: Big, sign: &Big| if sign.0.is_negative() { -c } else { c };
             [
                 (signed(right, &x) + one.clone()) / two.clone(),
                 (signed(ahead, &z) + one) / two,
@@ -211,7 +219,76 @@ fn literature(map: MappingId, chart: u32, dir: [f64; 3]) -> Option<[Big; 2]> {
             half() + x.atan2(&z) / (two.clone() * pi()),
             (one - y / n) / two,
         ],
+        MappingId::Tangent => {
+            let stretch = big(tangent::STRETCH);
+            face().map(|c| big(0.5) + (stretch.clone() * c).atan() / (two.clone() * stretch.atan()))
+        }
+        MappingId::S2Quadratic => face().map(|c| {
+            let p = (big(1.0) + big(3.0) * c.abs()).sqrt() - big(1.0);
+            big(0.5) + signed(p, &c) / big(2.0)
+        }),
+        MappingId::Everitt => face().map(|c| {
+            let slope = big(everitt::SLOPE);
+            let p = c.clone() * (slope.clone() + (big(1.0) - slope) * c.abs());
+            big(0.5) + p / big(2.0)
+        }),
+        MappingId::Algebraic => face().map(|c| {
+            let bend = square(&big(algebraic::BEND));
+            let p = (big(1.0) + bend.clone()) / (big(1.0) + bend * square(&c));
+            big(0.5) + c * p.sqrt() / big(2.0)
+        }),
+        MappingId::Unicube => face().map(|c| big(0.5) + strip(c)),
+        MappingId::Arvo => {
+            let [a, b] = face();
+            let height = (square(&a) + two.clone()) / (square(&a) + square(&b) + one);
+            [half() + strip(a), half() + b * height.sqrt() / two]
+        }
+        MappingId::Qsc => {
+            let [a, b] = face();
+            let is_upright = (b.abs() - a.abs()).0.is_positive();
+            let (major, minor) = if is_upright { (b, a) } else { (a, b) };
+            if major.0.is_zero() {
+                return None;
+            }
+            // As printed: theta in the quarter, the angle from the middle, and its largest value on the border.
+            let theta = (minor / major.clone()).atan();
+            let (sin, cos) = theta.sin_cos();
+            let turned = theta + (sin / two.sqrt()).acos() - pi() / two.clone();
+            let slope = big(12.0) / pi() * turned;
+            let from_middle = big(1.0) - major_cos(&n, chart, dir);
+            let reach = one.clone() - one.clone() / (one.clone() + square(&(one / cos))).sqrt();
+            let along = signed((from_middle / reach).sqrt(), &major);
+            let across = along.clone() * slope;
+            let [p, q] = if is_upright {
+                [across, along]
+            } else {
+                [along, across]
+            };
+            [half() + p / two.clone(), half() + q / two]
+        }
+        _ => return None,
     })
+}
+
+/// `magnitude` with the sign of `sign`.
+fn signed(magnitude: Big, sign: &Big) -> Big {
+    if sign.0.is_negative() {
+        -magnitude
+    } else {
+        magnitude
+    }
+}
+
+/// Half of p where columns hold equal solid angles: (3/pi) asin(a/sqrt(2 a^2 + 2)).
+fn strip(a: Big) -> Big {
+    let below = (big(2.0) * a.clone() * a.clone() + big(2.0)).sqrt();
+    big(3.0) / pi() * (a / below).asin()
+}
+
+/// Cosine of the angle from the middle of a face.
+fn major_cos(n: &Big, chart: u32, dir: [f64; 3]) -> Big {
+    let (_, _, ma) = to_frame(chart, Vec3::from_f64(dir));
+    big(ma) / n.clone()
 }
 
 /// Exact f32 directions: random ones, ties with every pattern of signs, and what lies a few units in the last place beside them.
@@ -255,21 +332,27 @@ fn worst(map: MappingId, spoil: f64) -> (f64, usize) {
 
 #[test]
 fn the_mathematics_in_f64_is_as_near_as_it_promises() {
-    let mut most = 0.0_f64;
+    let (mut most, mut held) = (0.0_f64, 0);
     for &map in MappingId::ALL {
         let (observed, count) = worst(map, 0.0);
+        // Three maps are known by their inverse; the laws of the way there and back hold them.
+        if count == 0 {
+            continue;
+        }
+        held += 1;
         println!("{map:24} {observed:.2e} of {PROMISED:.2e}, {count} directions");
         assert!(count > 250, "{map}: only {count} directions");
         assert!(observed <= PROMISED, "{map}: {observed:e}");
         most = most.max(observed);
     }
+    assert_eq!(held, 18);
     assert!(most > PROMISED / 10.0, "the promise is far above {most:e}");
 }
 
 #[test]
 fn a_difference_of_a_few_units_is_noticed() {
     for &map in MappingId::ALL {
-        let (observed, _) = worst(map, 1e-15);
-        assert!(observed > PROMISED, "{map}: {observed:e}");
+        let (observed, count) = worst(map, 1e-15);
+        assert!(count == 0 || observed > PROMISED, "{map}: {observed:e}");
     }
 }

@@ -111,11 +111,11 @@ pub(super) fn forward(role: &str, prefix: &str, form: ShaderForm) -> String {
 pub fn precise_beside(id: MappingId) -> String {
     let text = angles(ShaderForm::Precise) + id.wgsl();
     let is_name = |c: char| c.is_alphanumeric() || c == '_';
-    let declared: Vec<&str> = text
-        .split("fn ")
-        .skip(1)
-        .filter_map(|rest| rest.split('(').next())
-        .collect();
+    let after = |keyword| {
+        let declarations = text.split(keyword).skip(1);
+        declarations.filter_map(move |rest| rest.split(|c| !is_name(c)).next())
+    };
+    let declared: Vec<&str> = after("fn ").chain(after("const ")).collect();
     let mut beside = String::new();
     let mut rest = &text[..];
     while let Some(first) = rest.chars().next() {

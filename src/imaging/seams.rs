@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 
 use super::{MapShape, Placement, Raster, Samples, Transfer};
-use crate::mapping::MappingId;
+use crate::mapping::Borders;
 use crate::mapping::cube_face::{Side, across};
 
 /// Most texels that are asked along a seam: the mean of so many differences is as good as that of all.
@@ -56,18 +56,18 @@ pub fn seams(shape: &MapShape, rasters: &[Raster]) -> Option<Seams> {
     if width < 2 || height < 2 {
         return None;
     }
-    match shape.mapping {
-        MappingId::Cube | MappingId::Ccm | MappingId::Eac => sums.cube(),
-        MappingId::Latlong => {
+    match shape.mapping.info().borders {
+        Borders::CubeEdges => sums.cube(),
+        Borders::DateLineAndPoles => {
             sums.date_line();
             sums.poles();
         }
         // Towards its poles a texel reaches over many degrees: no neighbour there is near.
-        MappingId::CylindricalEqualArea => sums.date_line(),
-        MappingId::Paraboloid => sums.two_rims(),
-        MappingId::Octahedral | MappingId::OctahedralEqualArea => sums.folded_sides(),
-        MappingId::Sphere | MappingId::Angular => sums.one_rim(),
-        MappingId::Matcap => return None,
+        Borders::DateLine => sums.date_line(),
+        Borders::TwoRims => sums.two_rims(),
+        Borders::FoldedSides => sums.folded_sides(),
+        Borders::OneRim => sums.one_rim(),
+        Borders::End => return None,
     }
     (sums.seams.count > 0).then_some(sums.seams)
 }

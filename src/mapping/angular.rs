@@ -2,7 +2,7 @@
 //!
 //! Azimuthal equidistant: centre +z, the whole rim -z.
 
-use super::{ChartPoint, Coverage, Domain, Mapping, MappingInfo, Step};
+use super::{Borders, ChartPoint, Coverage, Domain, Mapping, MappingInfo, Step};
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3, unit_in_plane};
 use std::f64::consts::FRAC_1_PI;
@@ -20,6 +20,7 @@ impl Mapping for Angular {
         domain: Domain::Disc,
         coverage: Coverage::SphereLessPoint([0.0, 0.0, -1.0]),
         evaluators: || evaluator::with_arctangents_and::<Angular>(seed_forms::ANGULAR),
+        borders: Borders::OneRim,
         ..MappingInfo::PLAIN
     };
 

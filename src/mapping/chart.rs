@@ -231,6 +231,8 @@ pub struct MappingInfo {
     pub domain: Domain,
     /// Which directions have an image.
     pub coverage: Coverage,
+    /// What lies across the borders of the charts.
+    pub borders: Borders,
     /// How the charts are unfolded into one picture.
     pub layout: Layout,
     /// What the mapping promises; laws hold it to that.
@@ -257,6 +259,7 @@ impl MappingInfo {
         aspect: 1.0,
         domain: Domain::Square,
         coverage: Coverage::Sphere,
+        borders: Borders::End,
         layout: Layout::Single,
         claims: Claims {
             equal_area: false,
@@ -314,6 +317,25 @@ pub(super) fn height_squared<R: Real>(u: R, v: R) -> R {
     // Not `max` and `min`: on a tie both would give the same one, and a dual number would lose the other's derivative.
     let (large, small) = if a < b { (b, a) } else { (a, b) };
     (large - R::one()) + small
+}
+
+/// What lies across the borders of the charts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Borders {
+    /// The twelve edges of a cube.
+    CubeEdges,
+    /// Left and right meet at the date line, and each row of texels at a pole meets itself.
+    DateLineAndPoles,
+    /// Left and right meet at the date line; the texels at a pole reach over many degrees.
+    DateLine,
+    /// Each side is folded onto itself around its middle.
+    FoldedSides,
+    /// The rim is one direction.
+    OneRim,
+    /// The rims of two discs are one circle.
+    TwoRims,
+    /// Nothing.
+    End,
 }
 
 /// Which directions have an image.

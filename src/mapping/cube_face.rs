@@ -7,8 +7,11 @@
 //! rounded dot products leave holes.
 
 use super::chart::to_signed;
-use super::{AngleLanes, DirLanes, LANES, Lane, Layout, Line, MappingInfo, PointLanes, Step};
+use super::{
+    AngleLanes, Borders, DirLanes, LANES, Lane, Layout, Line, MappingInfo, PointLanes, Step,
+};
 use crate::math::{Real, Vec3, atan_turns};
+use std::f64::consts::FRAC_1_PI;
 
 /// Names of the six charts.
 pub const FACES: &[&str] = &["+x", "-x", "+y", "-y", "+z", "-z"];
@@ -17,6 +20,7 @@ pub const FACES: &[&str] = &["+x", "-x", "+y", "-y", "+z", "-z"];
 /// the warp is the same on every face.
 pub const FAMILY: MappingInfo = MappingInfo {
     charts: FACES,
+    borders: Borders::CubeEdges,
     layout: Layout::Cross,
     ..MappingInfo::PLAIN
 };
@@ -214,6 +218,20 @@ pub fn gnomonic<R: Real>(dir: Vec3<R>, choose: fn(Vec3<R>) -> u32) -> Option<(u3
 /// The unit direction of a point of a face's gnomonic plane.
 pub fn from_gnomonic<R: Real>(face: u32, a: R, b: R) -> Vec3<R> {
     from_frame(face, a, b, R::one()).normalized()
+}
+
+/// p in [-1, 1] of a in [-1, 1], such that strips of a face between lines of equal a hold solid angle in proportion: the strip up
+/// to a has 4 asin(a/sqrt(2 a^2 + 2)) sr, here by the arctangent.
+#[inline(always)]
+pub fn strip_of_plane<R: Real>(a: R) -> R {
+    (a / (a * a + R::two()).sqrt()).atan_unit() * R::from_f64(6.0 * FRAC_1_PI)
+}
+
+/// The inverse of [`strip_of_plane`]: with t = tan(pi p/6), a = t sqrt(2/(1 - t^2)).
+#[inline(always)]
+pub fn plane_of_strip<R: Real>(p: R) -> R {
+    let t = (p * R::from_f64(1.0 / 12.0)).tan_turns();
+    t * (R::two() / (R::one() - t * t)).sqrt()
 }
 
 /// The steps where the face of the largest component counts: the face, its frame, the gnomonic plane, and what `place`

@@ -1,6 +1,8 @@
 //! Cylindrical equal-area (Lambert): longitude to the right, height downwards. 4 pi sr per unit of chart area.
 
-use super::{ChartPoint, Claims, Mapping, MappingInfo, Step, WeakSpot, evaluator, latlong};
+use super::{
+    Borders, ChartPoint, Claims, Mapping, MappingInfo, Step, WeakSpot, evaluator, latlong,
+};
 use crate::math::{Real, Vec3};
 use std::f64::consts::PI;
 
@@ -26,6 +28,7 @@ impl Mapping for CylindricalEqualArea {
             reason: "v is flat at the poles, and near v = 1 half of the last digit of v is worth 6e-8 rad over the angle from the pole",
         }],
         evaluators: evaluator::shaders_with_arctangents,
+        borders: Borders::DateLine,
         ..MappingInfo::PLAIN
     };
 

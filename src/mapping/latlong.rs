@@ -2,7 +2,7 @@
 //!
 //! The centre of the picture looks along +z, +x lies to the right, +y is up. Grimm and Niebruegge, equations 1 to 4.
 
-use super::{AngleLanes, DirLanes, LANES, Lane, Line, PointLanes};
+use super::{AngleLanes, Borders, DirLanes, LANES, Lane, Line, PointLanes};
 use super::{ChartPoint, Convention, Erratum, Mapping, MappingInfo, Step};
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3, atan2_turns};
@@ -45,6 +45,7 @@ impl Mapping for Latlong {
             },
         ],
         evaluators: || evaluator::with_arctangents_and::<Latlong>(seed_forms::LATLONG),
+        borders: Borders::DateLineAndPoles,
         ..MappingInfo::PLAIN
     };
 

@@ -18,6 +18,7 @@ mod convention;
 pub mod cube_face;
 mod device;
 pub mod evaluator;
+mod face_map;
 mod frame;
 mod jacobian;
 mod lane_forms;
@@ -30,7 +31,9 @@ mod turn;
 
 pub use arrangement::{Arrangement, ArrangementError, Held};
 pub use axes::Axes;
-pub use chart::{ChartPoint, Claims, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot};
+pub use chart::{
+    Borders, ChartPoint, Claims, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot,
+};
 pub use convention::{Convention, Erratum, ForwardFn, InverseFn};
 pub use device::{Adapter, Device, DeviceTime, NoDevice, Shader, Work};
 pub use evaluator::{Evaluator, EvaluatorError, EvaluatorInfo, Processor, Runs};
@@ -53,6 +56,16 @@ registry! {
     Cube in cube,
     Ccm in ccm,
     Eac in eac,
+    Tangent in tangent,
+    S2Quadratic in s2_quadratic,
+    Everitt in everitt,
+    Algebraic in algebraic,
+    Unicube in unicube,
+    Nowell in nowell,
+    Outerra in outerra,
+    Cobe in cobe,
+    Arvo in arvo,
+    Qsc in qsc,
     Octahedral in octahedral,
     OctahedralEqualArea in octahedral_equal_area,
     Angular in angular,

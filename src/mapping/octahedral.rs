@@ -4,7 +4,7 @@
 
 use super::chart::{to_signed, to_unit};
 use super::evaluator;
-use super::{ChartPoint, Mapping, MappingInfo, Step};
+use super::{Borders, ChartPoint, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
 /// See the [module](self).
@@ -18,6 +18,7 @@ impl Mapping for Octahedral {
         source: "Engelhardt and Dachsbacher 2008",
         charts: &["square"],
         evaluators: || evaluator::plain_and::<Octahedral>(&[]),
+        borders: Borders::FoldedSides,
         ..MappingInfo::PLAIN
     };
 

@@ -4,7 +4,7 @@
 
 use super::chart::{to_signed, to_unit};
 use super::octahedral::{BELOW, Octant, fold, octant, wrap};
-use super::{ChartPoint, Claims, Mapping, MappingInfo, Step};
+use super::{Borders, ChartPoint, Claims, Mapping, MappingInfo, Step};
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3};
 use std::f64::consts::FRAC_1_PI;
@@ -28,6 +28,7 @@ impl Mapping for OctahedralEqualArea {
                 seed_forms::OCTAHEDRAL_EQUAL_AREA,
             )
         },
+        borders: Borders::FoldedSides,
         ..MappingInfo::PLAIN
     };
 

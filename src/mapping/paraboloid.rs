@@ -3,7 +3,7 @@
 //! Chart 0 looks along +z, chart 1 along -z; both are what an observer inside sees. Exactly conformal, area ratio 4.
 
 use super::evaluator;
-use super::{ChartPoint, Claims, Domain, Layout, Mapping, MappingInfo, Step};
+use super::{Borders, ChartPoint, Claims, Domain, Layout, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
 /// See the [module](self).
@@ -23,6 +23,7 @@ impl Mapping for Paraboloid {
             ..MappingInfo::PLAIN.claims
         },
         evaluators: || evaluator::plain_and::<Paraboloid>(&[]),
+        borders: Borders::TwoRims,
         ..MappingInfo::PLAIN
     };
 

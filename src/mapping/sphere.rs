@@ -5,7 +5,7 @@
 
 use super::chart::height_squared;
 use super::{
-    ChartPoint, Claims, Convention, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot,
+    Borders, ChartPoint, Claims, Convention, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot,
 };
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3};
@@ -41,6 +41,7 @@ impl Mapping for Sphere {
             forward: (hoff, hoff),
             inverse: Some((hoff_inverse, hoff_inverse)),
         }],
+        borders: Borders::OneRim,
         ..MappingInfo::PLAIN
     };
 

@@ -68,6 +68,7 @@ fn numbers(line: &str) -> Vec<f64> {
     cells.map(|cell| cell.parse().unwrap()).collect()
 }
 
+/// The mappings that have golden tables.
 const MAPS: [&str; 11] = [
     "latlong",
     "sphere",

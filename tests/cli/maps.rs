@@ -1,6 +1,8 @@
 //! `sixfold maps`.
 
-use super::{MAPS, run};
+use sixfold::mapping::MappingId;
+
+use super::run;
 
 #[test]
 fn maps_lists_every_mapping() {
@@ -12,7 +14,8 @@ fn maps_lists_every_mapping() {
         .map(|l| l.split(' ').next().unwrap())
         .collect();
     assert_eq!(ids[0], "ID");
-    assert_eq!(ids[1..], MAPS);
+    let maps: Vec<&str> = MappingId::ALL.iter().map(|map| map.info().id).collect();
+    assert_eq!(ids[1..], maps);
     let column = table.out.lines().next().unwrap().find("SOURCE").unwrap();
     for line in table.out.lines() {
         let at: String = line.chars().skip(column - 2).take(3).collect();
@@ -24,8 +27,8 @@ fn maps_lists_every_mapping() {
 
     let json: serde_json::Value = serde_json::from_str(&run(&["maps", "--json"], "").out).unwrap();
     let list = json.as_array().unwrap();
-    assert_eq!(list.len(), MAPS.len());
-    for (entry, id) in list.iter().zip(MAPS) {
+    assert_eq!(list.len(), maps.len());
+    for (entry, id) in list.iter().zip(maps) {
         assert_eq!(entry["id"], id);
         for key in [
             "name",

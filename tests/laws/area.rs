@@ -13,11 +13,12 @@ pub fn jacobian(subject: &Subject) -> Vec<Finding> {
     // The rule's error is h^4/30 times the fifth derivative, which near a rim or a pole is the inverse fifth power of the
     // margin and more; the digits lost by the difference are f64's over h.
     const STEP: f64 = 5e-5;
+    const MARGIN: f64 = 0.02;
     let points = inner_points(
         31,
         info.chart_count(),
         info.domain,
-        0.02,
+        MARGIN,
         subject.effort / 10,
     );
     let mut worst = Worst::default();
@@ -29,6 +30,16 @@ pub fn jacobian(subject: &Subject) -> Vec<Finding> {
                 .inverse(moved)
                 .unwrap_or(Vec3::from_f64([f64::NAN; 3]))
         };
+        // As far from a bend as from a border.
+        let is_bent = [[MARGIN, 0.0], [-MARGIN, 0.0], [0.0, MARGIN], [0.0, -MARGIN]]
+            .into_iter()
+            .any(|[du, dv]| {
+                let moved = ChartPoint::new(p.chart, p.u + du, p.v + dv);
+                subject.map.facet(moved) != subject.map.facet(p)
+            });
+        if is_bent {
+            continue;
+        }
         let difference = |du: f64, dv: f64| {
             let near = at(du, dv) - at(-du, -dv);
             let far = at(2.0 * du, 2.0 * dv) - at(-2.0 * du, -2.0 * dv);
@@ -42,7 +53,7 @@ pub fn jacobian(subject: &Subject) -> Vec<Finding> {
         worst.see((jacobian.du - difference(1.0, 0.0)).length() / size);
         worst.see((jacobian.dv - difference(0.0, 1.0)).length() / size);
     }
-    vec![Finding::new("relative", worst.0, 1e-10)]
+    vec![Finding::new("relative", worst.0, 3e-11)]
 }
 
 /// Nodes and weights of Gauss-Legendre quadrature on [0, 1], by Newton's method on the Legendre polynomial.
@@ -104,6 +115,22 @@ fn covered_sr(subject: &Subject) -> f64 {
                 }
                 sum
             }
+            // Members of the cube family may be bent along the middles of their faces or along the diagonals: the eight triangles
+            // between them one by one (p = s, q = s t, and exchanged).
+            (Domain::Square, map) if map.info().chart_count() == 6 => {
+                let mut sum = 0.0;
+                for (s, weight_s) in rule {
+                    for (t, weight_t) in rule {
+                        for (p, q) in [(s, s * t), (s * t, s)] {
+                            for sign in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
+                                let (u, v) = (0.5 + 0.5 * sign[0] * p, 0.5 + 0.5 * sign[1] * q);
+                                sum += 0.25 * s * weight_s * weight_t * scale(chart, u, v);
+                            }
+                        }
+                    }
+                }
+                sum
+            }
             (Domain::Square, _) => rule
                 .iter()
                 .flat_map(|u| rule.iter().map(move |v| (u, v)))
@@ -140,6 +167,10 @@ pub fn solid_angles(subject: &Subject) -> Vec<Finding> {
         Domain::Disc => Finding::new("texels of a disc of 64 x 64, sr", texels, 0.15),
         Domain::Square if subject.map == MappingId::Octahedral => {
             Finding::new("64 x 64 texels, with creases, sr", texels, 6e-4)
+        }
+        // Its root is near the border, and nine nodes a texel follow it less well.
+        Domain::Square if subject.map == MappingId::Everitt => {
+            Finding::new("64 x 64 texels, by a root, sr", texels, 2.5e-9)
         }
         Domain::Square => Finding::new("64 x 64 texels, sr", texels, 1e-11),
     };
@@ -178,7 +209,7 @@ pub fn claims(subject: &Subject) -> Vec<Finding> {
         if claims.equal_area {
             Finding::new("equal-area: area scale, spread", ratio - 1.0, 2e-13)
         } else {
-            Finding::at_least("not equal-area, yet constant", ratio - 1.0, 0.1)
+            Finding::at_least("not equal-area, yet constant", ratio - 1.0, 0.01)
         },
         if claims.conformal {
             // The difference of the axes is the root of a difference that cancels.

@@ -46,6 +46,7 @@ const LATLONG: Applies = |map| map == MappingId::Latlong;
 /// Those with a seam: a rim that is one direction, or that bounds the half that is covered, has no other side.
 const WITH_SEAMS: Applies =
     |map| map.info().chart_count() > 1 || map.info().domain == Domain::Square;
+const CONTINUOUS: Applies = |map| WITH_SEAMS(map) && map.info().claims.continuous;
 /// Those whose charts have something beyond their border.
 const GOES_ON: Applies = |map| !beyond::ends_at_its_rim(map);
 const WITH_AREA_CLAIMS: Applies = |map| map.info().claims.equal_area || map.info().claims.conformal;
@@ -152,7 +153,10 @@ const LAWS: [Law; 15] = [
         name: "seams are divided alike",
         applies: WITH_SEAMS,
         check: seams::continuous,
-        controls: &[(Fault::OneSided, WITH_SEAMS)],
+        controls: &[
+            (Fault::OneSided, CONTINUOUS),
+            (Fault::PlainCube, |map| !map.info().claims.continuous),
+        ],
     },
     Law {
         name: "texels across a seam are neighbours",

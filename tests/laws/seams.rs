@@ -76,15 +76,17 @@ pub fn continuous(subject: &Subject) -> Vec<Finding> {
     let (single, single_astray, met) = disagreement::<f32>(subject, 3e-7);
     let (double, double_astray, _) = disagreement::<f64>(subject, 1e-15);
     assert!(
-        subject.info().claims.continuous,
-        "{} claims no continuity",
-        subject.map
-    );
-    assert!(
         met > 1000 || subject.fault.is_some(),
         "{}: only {met} seams met",
         subject.map
     );
+    if !subject.info().claims.continuous {
+        return vec![Finding::at_least(
+            "f64 along a seam that is divided in two ways, uv",
+            double,
+            0.01,
+        )];
+    }
     vec![
         Finding::new("f32 along the seam, uv", single, 2.4e-7),
         Finding::new("f64 along the seam, uv", double, 1e-15),

@@ -36,6 +36,8 @@ pub enum Fault {
     Flat,
     /// One chart, or half of it, is divided differently.
     OneSided,
+    /// The plain cube map stands in.
+    PlainCube,
     /// The continued inverse is a millionth of a chart beside the inverse.
     Shifted,
     /// Beyond the border it leans by a hundredth.
@@ -88,6 +90,7 @@ impl Subject {
                 let angle = cosine.to_f64().acos();
                 p.v = number(angle * std::f64::consts::FRAC_1_PI);
             }
+            Fault::PlainCube => return MappingId::Cube.forward(dir),
             Fault::OneSided if p.chart == 0 && p.u <= R::half() => {
                 p.v = p.v + number(0.01) * p.v * (R::one() - p.v);
             }

@@ -7,6 +7,7 @@ use crate::mapping::ccm::{Ccm, HALF_EDGE_RAD};
 use crate::mapping::cube::Cube;
 use crate::mapping::cube_face::{largest_component_lane, sign_table_lane};
 use crate::mapping::eac::Eac;
+use crate::mapping::face_map::FaceMap;
 use crate::math::approximation::multiply_add;
 
 /// The direction with these coordinates in the frame of a face.
@@ -54,6 +55,37 @@ impl LaneForm for Cube {
         v: f32,
     ) -> [f32; 3] {
         let [a, b, c] = unit(2.0 * u - 1.0, 2.0 * v - 1.0, 1.0);
+        from_frame(chart, a, b, c)
+    }
+}
+
+impl<F: FaceMap> LaneForm for F {
+    #[inline(always)]
+    fn chart_point<A: Arctangent, const FUSED: bool>(
+        _: A,
+        x: f32,
+        y: f32,
+        z: f32,
+    ) -> (u32, f32, f32) {
+        let d = largest_component_lane(x, y, z);
+        let scale = 1.0 / d.axis;
+        let (p, q) = F::from_plane(d.across * scale, d.down * scale);
+        (
+            d.face,
+            multiply_add::<FUSED>(p, 0.5, 0.5),
+            multiply_add::<FUSED>(q, 0.5, 0.5),
+        )
+    }
+
+    #[inline(always)]
+    fn direction<A: Arctangent + SineCosine, const FUSED: bool>(
+        _: A,
+        chart: u32,
+        u: f32,
+        v: f32,
+    ) -> [f32; 3] {
+        let (a, b) = F::to_plane(2.0 * u - 1.0, 2.0 * v - 1.0);
+        let [a, b, c] = unit(a, b, 1.0);
         from_frame(chart, a, b, c)
     }
 }
