@@ -287,6 +287,10 @@ fn settings_are_kept_undone_and_brought_into_range() {
     // Another mapping is as fine as the one before.
     ui.get_by_role_and_label(egui::Role::ComboBox, "A").click();
     settle(&mut ui);
+    // Below the fold of a long list.
+    ui.get_by_role_and_label(egui::Role::Button, "Angular map")
+        .scroll_to_me();
+    settle(&mut ui);
     ui.get_by_role_and_label(egui::Role::Button, "Angular map")
         .click();
     settle(&mut ui);
