@@ -96,7 +96,10 @@ fn worst(ui: &Ui, expected: fn(Vec3<f64>) -> Vec3<f64>) -> f32 {
 /// What interpolation between texels of a coarse face leaves, and much less than what another face shows.
 const CLOSE: f32 = 0.03;
 
+/// As a user does it: what lies below the fold of a list is scrolled to.
 fn click(ui: &mut Ui, role: Role, label: &str) {
+    ui.get_by_role_and_label(role, label).scroll_to_me();
+    clicked(ui);
     ui.get_by_role_and_label(role, label).click();
     clicked(ui);
 }
@@ -233,8 +236,7 @@ fn a_square_is_asked_about_and_decoded_once() {
     ui.get_by_label_contains("--from angular --from-layout single --from-frame skylibs");
     // Another mapping forgets the frame that does not know it.
     click(&mut ui, Role::ComboBox, "mapping");
-    ui.get_by_role_and_label(Role::Button, "Octahedral").click();
-    clicked(&mut ui);
+    click(&mut ui, Role::Button, "Octahedral");
     assert!(ui.query_by_label_contains("--from-frame").is_none());
     click(&mut ui, Role::Button, "Open");
     assert_eq!(file(&ui).hints.mapping, Some(MappingId::Octahedral));
