@@ -66,7 +66,7 @@ pub fn write(folder: &Path, name: &str, force: bool, bytes: &[u8]) -> Result<(),
 /// Writes a bench's files into a folder that is there.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_bench(
     folder: &Path,
     force: bool,
