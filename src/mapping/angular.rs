@@ -5,7 +5,7 @@
 use super::{Borders, ChartPoint, Coverage, Domain, Mapping, MappingInfo, Step};
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3, unit_in_plane};
-use std::f64::consts::FRAC_1_PI;
+use std::f64::consts::{FRAC_1_PI, TAU};
 
 /// See the [module](self).
 pub struct Angular;
@@ -38,7 +38,9 @@ impl Mapping for Angular {
         let (x, y) = (point.u - R::half(), R::half() - point.v);
         let rho = x.hypot(y);
         if rho <= R::zero() {
-            return Vec3::new(R::zero(), R::zero(), R::one());
+            // x/rho has no value in the middle; sin(2 pi rho)/rho has one.
+            let slope = R::from_f64(TAU);
+            return Vec3::new(slope * x, slope * y, R::one());
         }
         let (sin, cos) = rho.sin_cos_turns();
         Vec3::new(sin * (x / rho), sin * (y / rho), cos)

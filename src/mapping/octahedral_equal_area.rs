@@ -7,7 +7,7 @@ use super::octahedral::{BELOW, Octant, fold, octant, wrap};
 use super::{Borders, ChartPoint, Claims, Mapping, MappingInfo, Step};
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3};
-use std::f64::consts::FRAC_1_PI;
+use std::f64::consts::{FRAC_1_PI, PI, SQRT_2};
 
 /// See the [module](self).
 pub struct OctahedralEqualArea;
@@ -131,11 +131,12 @@ impl Mapping for OctahedralEqualArea {
 /// is the share of the quarter turn.
 fn in_octant<R: Real>([along_x, along_z]: [R; 2]) -> Vec3<R> {
     let radius = along_x + along_z;
-    let share = if radius > R::zero() {
-        along_z / radius
-    } else {
-        R::zero()
-    };
+    if radius <= R::zero() {
+        // At the pole there is no share, and no one slope: that of the meridian at which z begins.
+        let (slope, turn) = (R::from_f64(SQRT_2), R::from_f64(PI / SQRT_2));
+        return Vec3::new(slope * radius, R::one(), turn * along_z);
+    }
+    let share = along_z / radius;
     let (sin, cos) = (share * R::from_f64(0.25)).sin_cos_turns();
     // sin(colatitude) = r sqrt(2 - r^2), cos(colatitude) = 1 - r^2.
     let across = radius * (R::two() - radius * radius).max(R::zero()).sqrt();

@@ -3,7 +3,7 @@
 use super::face_map::FaceMap;
 use super::{Claims, MappingInfo, cube_face, evaluator};
 use crate::math::Real;
-use std::f64::consts::FRAC_1_PI;
+use std::f64::consts::{FRAC_1_PI, PI};
 
 /// See the [module](self).
 pub struct Qsc;
@@ -34,12 +34,11 @@ impl FaceMap for Qsc {
     fn from_plane<R: Real>(a: R, b: R) -> (R, R) {
         let is_upright = b.abs() > a.abs();
         let (major, minor) = if is_upright { (b, a) } else { (a, b) };
-        // In the very middle there is no slope; any will do.
-        let slope = if major.abs() > R::zero() {
-            minor / major
-        } else {
-            major
-        };
+        if major.abs() <= R::zero() {
+            let [along, across] = MIDDLE.map(R::from_f64);
+            return (a / along, b / across);
+        }
+        let slope = minor / major;
         let square = slope * slope;
         let reach = (R::two() + square).sqrt();
         let n = (R::one() + a * a + b * b).sqrt();
@@ -73,32 +72,43 @@ impl FaceMap for Qsc {
     /// The quarter's formula goes on to twice its slope; around the middle, where all four meet in a point, it is as on the face.
     #[inline(always)]
     fn to_plane_of<R: Real>(facet: u32, p: R, q: R) -> (R, R) {
+        let reaches = |facet: u32| {
+            let (major, minor) = if facet & 1 != 0 { (q, p) } else { (p, q) };
+            let along = if facet & 2 != 0 { -major } else { major };
+            along > R::zero() && minor.abs() <= R::two() * along
+        };
+        let facet = if reaches(facet) {
+            facet
+        } else {
+            Self::facet(p, q)
+        };
         let is_upright = facet & 1 != 0;
         let (major, minor) = if is_upright { (q, p) } else { (p, q) };
-        let along = if facet & 2 != 0 { -major } else { major };
-        if along > R::zero() && minor.abs() <= R::two() * along {
-            let (major, minor) = from_quarter(major, minor);
-            return if is_upright {
-                (minor, major)
-            } else {
-                (major, minor)
-            };
+        let (major, minor) = from_quarter(major, minor);
+        if is_upright {
+            (minor, major)
+        } else {
+            (major, minor)
         }
-        let own = Self::facet(p, q);
-        if own == facet {
-            // In the very middle.
-            return (p, q);
-        }
-        Self::to_plane_of(own, p, q)
     }
 }
+
+/// sin(pi/8).
+const BOUND: f64 = 0.382_683_432_365_089_8;
+
+/// Slopes of the plane's coordinates in the very middle of a face, where each direction has its own: those along the first quarter's
+/// axis, as everywhere with pi/6 for their product. There S = sqrt 2, and sqrt(2/(S(S + 1))) = 2 sin(pi/8); the tangent of the slope's
+/// angle grows by pi/24 over sin(pi/8)^2.
+const MIDDLE: [f64; 2] = [2.0 * BOUND, PI / (12.0 * BOUND)];
 
 /// The plane's coordinates along and across a quarter from the square's. With w the slope on the square and f = pi w/12, the
 /// plane's is sin f/(cos f - 1/sqrt 2), here by the half of f and sin(pi/8) so that nothing cancels; then cos = 1 - P^2 (1 - 1/S).
 #[inline(always)]
 fn from_quarter<R: Real>(along: R, across: R) -> (R, R) {
-    /// sin(pi/8).
-    const BOUND: f64 = 0.382_683_432_365_089_8;
+    if along.abs() <= R::zero() {
+        let [slope, turn] = MIDDLE.map(R::from_f64);
+        return (along * slope, across * turn);
+    }
     let (sin, cos) = (across / along * R::from_f64(1.0 / 48.0)).sin_cos_turns();
     let bound = R::from_f64(BOUND);
     let tangent = sin * cos / ((bound - sin) * (bound + sin));

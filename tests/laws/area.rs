@@ -220,6 +220,34 @@ pub fn claims(subject: &Subject) -> Vec<Finding> {
     ]
 }
 
+/// The area scale in the middle of the first chart over that a ten thousandth beside it.
+fn middle_over_beside(map: MappingId) -> f64 {
+    let [middle, beside] = [[0.5, 0.5], [0.5 + 1e-4, 0.5 + 3e-5]].map(|[u, v]| {
+        let (_, jacobian) = map.jacobian(ChartPoint::new(0, u, v)).unwrap();
+        jacobian.area_scale()
+    });
+    middle / beside
+}
+
+/// In the middle formulas meet that divide by the distance from it: the texel that lies there counts like the others.
+#[test]
+fn the_middle_of_a_chart_has_the_area_that_is_around_it() {
+    for &map in MappingId::ALL {
+        let ratio = middle_over_beside(map);
+        // Observed: 1 to within 1e-3, where the octahedron's creases meet.
+        assert!((ratio - 1.0).abs() < 1.5e-3, "{map}: {ratio}");
+    }
+    // Control: elsewhere on a face the area is another.
+    let corner = MappingId::Cube
+        .jacobian(ChartPoint::new(0, 0.0, 0.0))
+        .unwrap();
+    let middle = MappingId::Cube
+        .jacobian(ChartPoint::new(0, 0.5, 0.5))
+        .unwrap();
+    let ratio: f64 = corner.1.area_scale() / middle.1.area_scale();
+    assert!((ratio - 1.0).abs() > 0.5, "{ratio}");
+}
+
 #[test]
 fn gauss_integrates_polynomials() {
     let rule = gauss::<24>();
