@@ -92,12 +92,16 @@ impl<W: Warp> FaceMap for W {
     }
 }
 
-/// The direction of a chart point on a face or beyond: twice the border's nearest point of the plane, less the point of what
-/// lies as far inside the square as the point lies outside. On the face both are the point itself.
-fn beyond<R: Real>(point: ChartPoint<R>, to_plane: impl Fn(R, R) -> (R, R)) -> Vec3<R> {
+/// The direction of a chart point on a face or beyond it: there twice the border's nearest point of the plane, less the point of
+/// what lies as far inside the square as the point lies outside.
+fn on_or_beyond<R: Real>(point: ChartPoint<R>, to_plane: impl Fn(R, R) -> (R, R)) -> Vec3<R> {
     let (p, q) = (to_signed(point.u), to_signed(point.v));
     let border = |c: R| c.max(-R::one()).min(R::one());
     let (at_p, at_q) = (border(p), border(q));
+    if at_p == p && at_q == q {
+        let (a, b) = to_plane(p, q);
+        return from_gnomonic(point.chart, a, b);
+    }
     let (a, b) = to_plane(at_p, at_q);
     let (inner_a, inner_b) = to_plane(R::two() * at_p - p, R::two() * at_q - q);
     from_gnomonic(point.chart, R::two() * a - inner_a, R::two() * b - inner_b)
@@ -114,7 +118,7 @@ impl<F: FaceMap> Mapping for F {
 
     /// Beyond the face: on along its plane, so that neither place nor slope jumps at the border, whatever the formula.
     fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
-        beyond(point, F::to_plane)
+        on_or_beyond(point, F::to_plane)
     }
 
     const FACETS: u32 = F::FACETS;
@@ -124,7 +128,7 @@ impl<F: FaceMap> Mapping for F {
     }
 
     fn extended<R: Real>(facet: u32, point: ChartPoint<R>) -> Vec3<R> {
-        beyond(point, |p, q| F::to_plane_of(facet, p, q))
+        on_or_beyond(point, |p, q| F::to_plane_of(facet, p, q))
     }
 
     // What reads by lanes knows charts only.
