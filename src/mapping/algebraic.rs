@@ -14,7 +14,7 @@ impl Warp for Algebraic {
     const INFO: MappingInfo = MappingInfo {
         id: "algebraic",
         name: "Algebraic cube",
-        about: "A cube divided by a root: areas differ by 1.26.",
+        about: "A cube divided by a root: areas differ by 1.27.",
         source: "Lambers 2020, mappings between sphere, disc and square",
         evaluators: || evaluator::plain_and::<Algebraic>(&[]),
         ..cube_face::FAMILY

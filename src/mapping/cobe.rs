@@ -45,7 +45,7 @@ impl FaceMap for Cobe {
     }
 }
 
-/// 2.5e-3/16^n is below half a unit in the last place of f32 for n = 4 and of f64 for n = 11; one more for a derivative.
+/// 2.5e-3/16^n is below half a unit in the last place of f32 for n = 4 and of f64 for n = 12.
 fn sweeps<R: Real>() -> u32 {
     if R::EPSILON > 1e-10 { 4 } else { 12 }
 }

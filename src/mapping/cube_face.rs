@@ -220,8 +220,8 @@ pub fn from_gnomonic<R: Real>(face: u32, a: R, b: R) -> Vec3<R> {
     from_frame(face, a, b, R::one()).normalized()
 }
 
-/// p in [-1, 1] of a in [-1, 1], such that strips of a face between lines of equal a hold solid angle in proportion: the strip up
-/// to a has 4 asin(a/sqrt(2 a^2 + 2)) sr, here by the arctangent.
+/// p in [-1, 1] of a in [-1, 1], such that strips of a face between lines of equal a hold solid angle in proportion: the strip from
+/// -a to a has 4 asin(a/sqrt(2 a^2 + 2)) sr, here by the arctangent.
 #[inline(always)]
 pub fn strip_of_plane<R: Real>(a: R) -> R {
     (a / (a * a + R::two()).sqrt()).atan_unit() * R::from_f64(6.0 * FRAC_1_PI)

@@ -7,15 +7,14 @@ use crate::math::Real;
 /// See the [module](self).
 pub struct Everitt;
 
-/// e: the slope in the middle of a face; 2 - e is the slope at its border. Everitt took 1.375; with this one areas differ
-/// least (1.43).
+/// e: the slope in the middle of a face; 2 - e is the slope at its border. Everitt took 1.375.
 pub const SLOPE: f64 = 1.4511;
 
 impl Warp for Everitt {
     const INFO: MappingInfo = MappingInfo {
         id: "everitt",
         name: "Everitt's cube",
-        about: "A cube divided by parabolas: two products, areas differ by 1.43.",
+        about: "A cube divided by parabolas: two products, areas differ by 1.44.",
         source: "Everitt 2014, with the constant that public code ascribes to Zucker and Higashi, JCGT 7(2) 2018",
         evaluators: || evaluator::plain_and::<Everitt>(&[]),
         ..cube_face::FAMILY

@@ -11,7 +11,7 @@ impl FaceMap for Nowell {
     const INFO: MappingInfo = MappingInfo {
         id: "nowell",
         name: "Nowell's cube",
-        about: "The cube blown up by a polynomial: no division on the way to the ball, areas differ by 1.32.",
+        about: "The cube blown up by a polynomial: no division on the way to the ball, areas differ by 1.33.",
         source: "Nowell 2005, Mapping a cube to a sphere",
         evaluators: || evaluator::plain_and::<Nowell>(&[]),
         ..cube_face::FAMILY

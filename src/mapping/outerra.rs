@@ -19,7 +19,7 @@ impl FaceMap for Outerra {
     const INFO: MappingInfo = MappingInfo {
         id: "outerra",
         name: "Outerra's cube",
-        about: "The cube with the smallest mean distortion of shapes; areas differ by 3.5.",
+        about: "The cube with the smallest mean distortion of shapes; areas differ by 3.57.",
         source: "Kemen 2009, Outerra: spherical cube mapping",
         evaluators: || evaluator::plain_and::<Outerra>(&[]),
         ..cube_face::FAMILY

@@ -18,7 +18,7 @@ impl Warp for Tangent {
     const INFO: MappingInfo = MappingInfo {
         id: "tangent",
         name: "Adjusted tangent cube",
-        about: "The equi-angular cube with a stretched angle: areas differ by 1.30.",
+        about: "The equi-angular cube with a stretched angle: areas differ by 1.31.",
         source: "the constant that public code ascribes to Zucker and Higashi, JCGT 7(2) 2018",
         evaluators: || evaluator::plain_and::<Tangent>(&[]),
         ..cube_face::FAMILY

@@ -201,6 +201,53 @@ fn on_every_face_u_grows_with_a_and_v_with_b() {
     }
 }
 
+/// Largest over smallest area scale on a face, over a grid that has its border, middles and corners.
+fn area_ratio(map: MappingId) -> f64 {
+    const STEPS: i32 = 512;
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for index in 0..(STEPS + 1) * (STEPS + 1) {
+        let place = |i: i32| f64::from(i) / f64::from(STEPS);
+        let (u, v) = (place(index % (STEPS + 1)), place(index / (STEPS + 1)));
+        let (_, jacobian) = map.jacobian::<f64>(ChartPoint::new(4, u, v)).unwrap();
+        least = least.min(jacobian.area_scale());
+        most = most.max(jacobian.area_scale());
+    }
+    most / least
+}
+
+#[test]
+fn areas_differ_by_what_is_said_of_them() {
+    use MappingId::*;
+    // The plain and the equi-angular cube's are exact: 3 sqrt 3 and sqrt 2.
+    let said = [
+        (Cube, 5.196),
+        (Eac, 1.414),
+        (Tangent, 1.31),
+        (S2Quadratic, 2.10),
+        (Everitt, 1.44),
+        (Algebraic, 1.27),
+        (Unicube, 1.33),
+        (Nowell, 1.33),
+        (Outerra, 3.57),
+        (Cobe, 1.02),
+        (Arvo, 1.0),
+        (Qsc, 1.0),
+    ];
+    for (map, ratio) in said {
+        let observed = area_ratio(map);
+        // Half of the last digit that is said.
+        assert!((observed - ratio).abs() < 0.0055, "{map}: {observed}");
+        let words = map.info().about;
+        let is_said = words.contains("differ by") && map != Eac;
+        assert!(
+            !is_said || words.contains(&format!("differ by {ratio:.2}")),
+            "{words}"
+        );
+    }
+    // Control: the figures tell the maps apart.
+    assert!((area_ratio(Tangent) - area_ratio(Algebraic)).abs() > 0.011);
+}
+
 /// u and v from the paper's S and T on each chart, as the specification's table has them.
 fn from_paper(chart: u32, s: f64, t: f64) -> (f64, f64) {
     match chart {
