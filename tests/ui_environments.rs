@@ -17,7 +17,7 @@ use sixfold::imaging::load::{self, Format, Opened};
 use sixfold::imaging::{Environment, Progress, Stored};
 use sixfold::mapping::{ChartPoint, Layout, MappingId};
 use sixfold::math::{Rotation, turned};
-use window_kit::{Ui, open, run, settle, small};
+use window_kit::{Ui, WINDOW_SIZES, open, run, settle, small};
 
 fn state(ui: &Ui) -> &AppState {
     ui.state().explorer().state()
@@ -317,13 +317,7 @@ fn light(dir: [f64; 3]) -> [f32; 3] {
 #[test]
 fn no_dialog_is_clipped_or_fails_when_tiny() {
     let mut ui = open(small());
-    for (width, height) in [
-        (1280.0, 800.0),
-        (800.0, 600.0),
-        (300.0, 200.0),
-        (1.0, 1.0),
-        (800.0, 600.0),
-    ] {
+    for (width, height) in WINDOW_SIZES {
         ui.set_size(egui::vec2(width, height));
         ui.state_mut();
         ui.key_press_modifiers(

@@ -25,7 +25,7 @@ use sixfold::lab::inputs::Inputs;
 use sixfold::lab::machine::Machine;
 use sixfold::mapping::{MappingId, NoDevice};
 use sixfold::math::{Vec3, angle_rad};
-use window_kit::{Ui, open, open_sized, probe, rests, run, settle, small};
+use window_kit::{Ui, WINDOW_SIZES, open, open_sized, probe, rests, run, settle, small};
 
 const JOB: &str = "run time and error";
 
@@ -542,13 +542,7 @@ fn nothing_is_clipped_or_fails_when_tiny() {
     scene.laboratory.beside = maps[1..].to_vec();
     scene.laboratory.budget_on = true;
     let mut ui = filled(scene, &maps);
-    for (width, height) in [
-        (1280.0, 800.0),
-        (800.0, 600.0),
-        (300.0, 200.0),
-        (1.0, 1.0),
-        (800.0, 600.0),
-    ] {
+    for (width, height) in WINDOW_SIZES {
         ui.set_size(egui::vec2(width, height));
         for pane in [None, Some(Pane::Laboratory)] {
             run(&mut ui, Action::SetMaximised(pane));

@@ -19,7 +19,7 @@ use sixfold::imaging::resample::Filter;
 use sixfold::imaging::{Environment, Samples};
 use sixfold::mapping::{ChartPoint, MappingId};
 use sixfold::math::{Rotation, Vec3, angle_rad};
-use window_kit::{Ui, open, probe, run, settle, small};
+use window_kit::{Ui, WINDOW_SIZES, open, probe, run, settle, small};
 
 /// Small maps with the laboratory shown; lines and letters lose something.
 fn laboratory(loss: LossState) -> AppState {
@@ -326,13 +326,7 @@ fn the_residual_lies_as_the_maps_panel_does() {
 #[test]
 fn nothing_is_clipped_or_fails_when_tiny() {
     let mut ui = open(laboratory(quick()));
-    for (width, height) in [
-        (1280.0, 800.0),
-        (800.0, 600.0),
-        (300.0, 200.0),
-        (1.0, 1.0),
-        (800.0, 600.0),
-    ] {
+    for (width, height) in WINDOW_SIZES {
         ui.set_size(egui::vec2(width, height));
         for pane in [None, Some(Pane::Loss)] {
             run(&mut ui, Action::SetMaximised(pane));

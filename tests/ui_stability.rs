@@ -21,7 +21,7 @@ use sixfold::lab::stress::places::PLACES;
 use sixfold::lab::stress::{Family, Measure, Standing};
 use sixfold::mapping::MappingId;
 use sixfold::math::{Vec3, angle_rad};
-use window_kit::{Ui, open, probe, run, settle, small};
+use window_kit::{Ui, WINDOW_SIZES, open, probe, run, settle, small};
 
 /// The pane alone, on a mapping with few evaluators.
 fn pane(stability: StabilityState) -> AppState {
@@ -275,13 +275,7 @@ fn nothing_is_clipped_or_fails_when_tiny() {
     ui.get_by_role_and_label(egui::Role::Button, "Measure")
         .click();
     settle(&mut ui);
-    for (width, height) in [
-        (1280.0, 800.0),
-        (800.0, 600.0),
-        (300.0, 200.0),
-        (1.0, 1.0),
-        (800.0, 600.0),
-    ] {
+    for (width, height) in WINDOW_SIZES {
         ui.set_size(egui::vec2(width, height));
         for pane in [None, Some(Pane::Stability)] {
             run(&mut ui, Action::SetMaximised(pane));

@@ -20,6 +20,15 @@ use sixfold::math::Vec3;
 
 pub type Ui = Harness<'static, Window>;
 
+/// Widths and heights of windows in which nothing may fail, and in the large ones nothing be clipped; it comes back from the smallest.
+pub const WINDOW_SIZES: [(f32, f32); 5] = [
+    (1280.0, 800.0),
+    (800.0, 600.0),
+    (300.0, 200.0),
+    (1.0, 1.0),
+    (800.0, 600.0),
+];
+
 /// A window of 1280 x 800 on a software adapter; no adapter is a failure.
 pub fn open(state: AppState) -> Ui {
     open_sized(state, 1280.0, 800.0)
