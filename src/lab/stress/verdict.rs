@@ -1,7 +1,7 @@
 //! What is to be said of one chart point that an evaluator found, against exact arithmetic.
 
 use crate::lab::accuracy::direction_of;
-use crate::mapping::{ChartPoint, MappingId, NOWHERE};
+use crate::mapping::{Borders, ChartPoint, MappingId, NOWHERE};
 use crate::math::{Vec3, angle_rad};
 
 /// What exact arithmetic says of a direction.
@@ -27,12 +27,12 @@ impl Exact {
 /// Whether charts meet at a direction exactly.
 fn is_tie(map: MappingId, [x, y, z]: [f64; 3]) -> bool {
     let [x, y, z] = [x.abs(), y.abs(), z.abs()];
-    match map.info().charts.len() {
-        6 => {
+    match map.info().borders {
+        Borders::CubeEdges => {
             let largest = x.max(y).max(z);
             [x, y, z].iter().filter(|c| **c == largest).count() > 1
         }
-        2 => z == 0.0,
+        Borders::TwoRims => z == 0.0,
         _ => false,
     }
 }
