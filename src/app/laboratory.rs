@@ -160,12 +160,8 @@ impl<'a> Used<'a> {
     /// The cheapest within the budget while that is switched on and something measured is within it, else the chosen one; where
     /// a texel takes so many pixels.
     pub fn of(state: &AppState, rows: &'a [Row], map: MappingId, pixels: f64) -> Option<Self> {
-        let laboratory = &state.laboratory;
-        let forward = forward_on(rows, map, CPU);
-        let height = crate::gpu::map_size(map, state.texel_budget)[1];
-        let allowed = allowed_texels(laboratory.budget_texels, pixels);
-        let within = cheapest(&forward, height, allowed).filter(|_| laboratory.budget_on);
-        if let Some(choice) = within
+        let forward = lookups(rows, map, |device| device == CPU);
+        if let Some(choice) = within_budget(state, &forward, map, pixels)
             && let Some(evaluator) = map.evaluator(choice.row.evaluator)
         {
             return Some(Self {
@@ -174,14 +170,14 @@ impl<'a> Used<'a> {
                 by_budget: true,
             });
         }
-        let evaluator = laboratory.chosen(map)?;
+        let evaluator = state.laboratory.chosen(map)?;
         let own = forward
             .into_iter()
             .filter(|row| row.evaluator == evaluator.id);
         let own: Vec<&Row> = own.collect();
         Some(Self {
             evaluator,
-            measured: fastest(choices(&own, height)),
+            measured: fastest(choices(&own, chart_rows(state, map))),
             by_budget: false,
         })
     }
@@ -190,14 +186,9 @@ impl<'a> Used<'a> {
 /// The form in which the viewport runs the mapping's shader: the cheapest on the adapter within the budget while that is switched on
 /// and something measured is within it, else the chosen one.
 pub fn used_form(state: &AppState, rows: &[Row], pixels: f64) -> FormState {
-    let (map, laboratory) = (state.mapping, &state.laboratory);
-    let id = map.info().id;
-    let is_of =
-        |row: &&Row| row.mapping == id && row.direction == Way::Forward && row.device != CPU;
-    let on_adapter: Vec<&Row> = rows.iter().filter(is_of).collect();
-    let height = crate::gpu::map_size(map, state.texel_budget)[1];
-    let allowed = allowed_texels(laboratory.budget_texels, pixels);
-    let within = cheapest(&on_adapter, height, allowed).filter(|_| laboratory.budget_on);
+    let map = state.mapping;
+    let on_adapter = lookups(rows, map, |device| device != CPU);
+    let within = within_budget(state, &on_adapter, map, pixels);
     let form = within.and_then(|choice| ShaderForm::from_id(choice.row.evaluator));
     FormState {
         form: form.unwrap_or_else(|| map.form_or_precise(state.form.form)),
@@ -205,12 +196,31 @@ pub fn used_form(state: &AppState, rows: &[Row], pixels: f64) -> FormState {
     }
 }
 
-/// The measurements of a mapping's lookups on one device.
-fn forward_on<'a>(rows: &'a [Row], map: MappingId, device: &str) -> Vec<&'a Row> {
+/// The measurements of a mapping's lookups on some devices.
+fn lookups(rows: &[Row], map: MappingId, is_wanted: impl Fn(&str) -> bool) -> Vec<&Row> {
     let id = map.info().id;
     let is_of =
-        |row: &&Row| row.mapping == id && row.direction == Way::Forward && row.device == device;
+        |row: &&Row| row.mapping == id && row.direction == Way::Forward && is_wanted(&row.device);
     rows.iter().filter(is_of).collect()
+}
+
+/// The cheapest of a mapping's lookups within the budget, while that is switched on.
+fn within_budget<'a>(
+    state: &AppState,
+    lookups: &[&'a Row],
+    map: MappingId,
+    pixels: f64,
+) -> Option<Choice<'a>> {
+    let laboratory = &state.laboratory;
+    let allowed = allowed_texels(laboratory.budget_texels, pixels);
+    laboratory
+        .budget_on
+        .then(|| cheapest(lookups, chart_rows(state, map), allowed))?
+}
+
+/// Texels along the height of a mapping's charts.
+fn chart_rows(state: &AppState, map: MappingId) -> u32 {
+    crate::gpu::map_size(map, state.texel_budget)[1]
 }
 
 /// Screen pixels that a texel of `map` takes in the views that were laid out, where it takes most: in the sky of the viewport, or
@@ -220,7 +230,7 @@ pub fn largest_pixels_per_texel(
     laid_out: &[(ViewKey, [u32; 2])],
     map: MappingId,
 ) -> f64 {
-    let rows = crate::gpu::map_size(map, state.texel_budget)[1];
+    let rows = chart_rows(state, map);
     let pixels = |(key, [width, height]): &(ViewKey, [u32; 2])| match *key {
         ViewKey::Viewport => {
             let fov_y_rad = f64::from(state.camera.sanitized().fov_y_rad);
