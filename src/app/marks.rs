@@ -1,6 +1,6 @@
 //! Lines and arrows with an edge, readable on every picture.
 
-use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Vec2};
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Vec2};
 
 use super::theme::{PROBE_EDGE, TEXEL};
 
@@ -9,6 +9,16 @@ pub fn edged_line(painter: &Painter, points: Vec<Pos2>, width: f32, color: Color
     let edge = PROBE_EDGE.gamma_multiply(0.7);
     painter.line(points.clone(), Stroke::new(width + 2.0, edge));
     painter.line(points, Stroke::new(width, color));
+}
+
+/// The colours of a scale, from share 0 at the left to 1 at the right.
+pub fn colour_bar(painter: &Painter, rect: Rect, colour: impl Fn(f32) -> Color32) {
+    const STEPS: usize = 64;
+    let at = |step: usize| rect.left() + rect.width() * step as f32 / STEPS as f32;
+    for step in 0..STEPS {
+        let piece = Rect::from_x_y_ranges(at(step)..=at(step + 1), rect.y_range());
+        painter.rect_filled(piece, 0.0, colour((step as f32 + 0.5) / STEPS as f32));
+    }
 }
 
 /// A circle with a cross in it.

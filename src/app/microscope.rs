@@ -5,13 +5,13 @@ use egui::{
 };
 
 use super::action::Action;
-use super::marks::{edged_line, edged_text, ring};
+use super::marks::{colour_bar, edged_line, edged_text, ring};
 use super::model::Model;
 use super::stability::Shown;
 use super::state::StabilityState;
 use super::theme;
 use crate::lab::stress::microscope::{Picture, Pixel, Verdict, View};
-use crate::lab::stress::palette::{SCALE_RAD, colour, error_colour, place_of};
+use crate::lab::stress::palette::{SCALE_RAD, colour, colour_at, place_of};
 use crate::math::Isa;
 
 /// Below this height the legend is left out for the picture.
@@ -160,15 +160,7 @@ fn pointer(ui: &Ui, model: &mut Model<'_>, view: &View, rect: Rect, response: &R
     }
     if response.clicked() {
         let dir = view.directions()(pixels(pos - rect.min));
-        move_probe(model, dir.map(|c| c as f32));
-    }
-}
-
-/// Puts the probe on a direction and keeps it there.
-pub(super) fn move_probe(model: &mut Model<'_>, dir: [f32; 3]) {
-    model.push(Action::SetProbe { dir, eye_ray: None });
-    if model.state.probe_follows {
-        model.push(Action::FollowPointer(false));
+        model.keep_probe(dir);
     }
 }
 
@@ -322,17 +314,10 @@ fn scale_ui(ui: &mut Ui, allowed_rad: f64) {
     let end = |rad: f64| RichText::new(format!("{rad:.0e}")).small();
     ui.label(end(SCALE_RAD[0]));
     let (rect, response) = ui.allocate_exact_size(vec2(110.0, 10.0), Sense::hover());
-    let steps = rect.width() as usize;
-    for step in 0..steps {
-        let share = step as f64 / (steps - 1).max(1) as f64;
-        let power = SCALE_RAD.map(f64::log10);
-        let rad = 10f64.powf(power[0] + share * (power[1] - power[0]));
-        let [r, g, b] = error_colour(rad);
-        let left = rect.left() + step as f32;
-        let column = Rect::from_min_max(pos2(left, rect.top()), pos2(left + 1.0, rect.bottom()));
-        ui.painter()
-            .rect_filled(column, 0.0, Color32::from_rgb(r, g, b));
-    }
+    colour_bar(ui.painter(), rect, |place| {
+        let [r, g, b] = colour_at(f64::from(place));
+        Color32::from_rgb(r, g, b)
+    });
     let x = rect.left() + place_of(allowed_rad) as f32 * rect.width();
     let mark = vec![pos2(x, rect.top() - 2.0), pos2(x, rect.bottom() + 2.0)];
     edged_line(ui.painter(), mark, 1.5, theme::PROBE);

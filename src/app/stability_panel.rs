@@ -3,7 +3,7 @@
 use egui::{Align, ComboBox, DragValue, Label, Layout, RichText, ScrollArea, Slider, Ui, vec2};
 
 use super::action::Action;
-use super::microscope::{degrees_text, microscope_ui, move_probe};
+use super::microscope::{degrees_text, microscope_ui};
 use super::model::Model;
 use super::stability_table::{TABLE_WIDTH, table_ui};
 use super::state::{LENGTHS, StabilityState};
@@ -93,9 +93,9 @@ fn looking_ui(ui: &mut Ui, model: &mut Model<'_>) {
             )
             .clicked()
         {
-            let dir = stability.center.map(|c| c as f32);
-            model.push(Action::FaceDirection(dir));
-            move_probe(model, dir);
+            let dir = stability.center;
+            model.push(Action::FaceDirection(dir.map(|c| c as f32)));
+            model.keep_probe(dir);
         }
     });
     ui.horizontal(|ui| zoom_ui(ui, &mut stability));
@@ -110,9 +110,9 @@ fn go_to(model: &mut Model<'_>, place: &Place) {
         model.push(Action::SetMapping(place.map));
     }
     let stability = model.state.stability.clone().at(place);
-    let dir = stability.center.map(|c| c as f32);
+    let dir = stability.center;
     set(model, stability);
-    move_probe(model, dir);
+    model.keep_probe(dir);
 }
 
 fn evaluator_ui(ui: &mut Ui, model: &Model<'_>, stability: &mut StabilityState) {

@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, ComboBox, FontId, RichText, ScrollArea, Sense, Ui, vec2};
 
 use super::command::Command;
-use super::microscope::{move_probe, vector_text};
+use super::microscope::vector_text;
 use super::model::Model;
 use super::stability::Table;
 use super::stability_panel::set;
@@ -262,9 +262,9 @@ fn look_at(model: &mut Model<'_>, row: &Row, dir: [f32; 3]) {
         ..model.state.stability.clone()
     }
     .sanitized();
-    let unit = stability.center.map(|c| c as f32);
+    let unit = stability.center;
     set(model, stability);
-    move_probe(model, unit);
+    model.keep_probe(unit);
 }
 
 /// A number in six letters.

@@ -2,6 +2,8 @@
 
 use egui::{Color32, FontId, Stroke, TextStyle, Visuals};
 
+use crate::lab::stress::palette::between;
+
 /// Background of the panels' pictures: dark and neutral, so that colours are judged against grey.
 pub const PICTURE_BACKGROUND: [u8; 3] = [24, 24, 27];
 /// The probe and its marks.
@@ -87,19 +89,10 @@ pub fn scale(share: f32) -> Color32 {
         [170, 220, 50],
         [253, 231, 37],
     ];
-    let last = VIRIDIS.len() - 1;
-    let place = if share.is_finite() {
-        share.clamp(0.0, 1.0) * last as f32
-    } else {
-        last as f32
-    };
-    let from = (place as usize).min(last - 1);
-    let [a, b] = [VIRIDIS[from], VIRIDIS[from + 1]];
-    let mixed = |k: usize| {
-        let [a, b] = [a[k], b[k]].map(f32::from);
-        (a + (b - a) * (place - from as f32)).round() as u8
-    };
-    Color32::from_rgb(mixed(0), mixed(1), mixed(2))
+    // What is no number is beyond every number.
+    let share = if share.is_finite() { share } else { 1.0 };
+    let [r, g, b] = between(&VIRIDIS, f64::from(share));
+    Color32::from_rgb(r, g, b)
 }
 
 /// Colours of series that are told apart by their markers' shapes, too: Okabe and Ito's, the dark blue lightened.

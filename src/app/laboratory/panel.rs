@@ -8,7 +8,7 @@ use super::table::table_ui;
 use super::words::NOT_MEASURED;
 use super::{ShownErrors, Used, Wanted};
 use crate::app::map_panel::{paint_chart_names, paint_probe, place_of, window_of};
-use crate::app::marks::ring;
+use crate::app::marks::{colour_bar, ring};
 use crate::app::model::Model;
 use crate::app::numbers::significant;
 use crate::app::state::PanelState;
@@ -166,13 +166,6 @@ fn range_text(shown: &ShownErrors) -> String {
 /// The scale's colours, from no error at the left to the largest.
 fn scale_ui(ui: &mut Ui) {
     const HEIGHT: f32 = 10.0;
-    const STEPS: usize = 64;
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
-    for step in 0..STEPS {
-        let [from, to] =
-            [step, step + 1].map(|k| rect.left() + rect.width() * k as f32 / STEPS as f32);
-        let piece = Rect::from_x_y_ranges(from..=to, rect.y_range());
-        let color = theme::scale((step as f32 + 0.5) / STEPS as f32);
-        ui.painter().rect_filled(piece, 0.0, color);
-    }
+    colour_bar(ui.painter(), rect, theme::scale);
 }

@@ -23,13 +23,23 @@ const ERRORS: [Colour; 8] = [
 
 /// The colour of an error in radians.
 pub fn error_colour(rad: f64) -> Colour {
-    let place = place_of(rad) * (ERRORS.len() - 1) as f64;
-    let below = (place as usize).min(ERRORS.len() - 2);
-    let share = place - below as f64;
-    let [a, b] = [ERRORS[below], ERRORS[below + 1]];
+    colour_at(place_of(rad))
+}
+
+/// The colour at a place of the scale, in [0, 1].
+pub fn colour_at(place: f64) -> Colour {
+    between(&ERRORS, place)
+}
+
+/// The colour at a share, in [0, 1], of the way through colours in equal steps.
+pub fn between(colours: &[Colour], share: f64) -> Colour {
+    let last = colours.len().saturating_sub(1);
+    let place = share.clamp(0.0, 1.0) * last as f64;
+    let from = (place as usize).min(last.saturating_sub(1));
+    let [a, b] = [from, last.min(from + 1)].map(|k| colours.get(k).copied().unwrap_or_default());
     std::array::from_fn(|k| {
         let [a, b] = [a[k], b[k]].map(f64::from);
-        (a + (b - a) * share).round() as u8
+        (a + (b - a) * (place - from as f64)).round() as u8
     })
 }
 
