@@ -118,8 +118,8 @@ impl BenchLab {
 }
 
 impl Lab for BenchLab {
-    fn poll(&mut self, ctx: &Context) {
-        self.errors.poll(ctx);
+    fn poll(&mut self, _: &Context) {
+        self.errors.poll();
         let Some(job) = self.job.take() else {
             return;
         };

@@ -16,6 +16,7 @@ pub mod export;
 mod export_dialog;
 pub mod figures;
 pub mod files;
+mod follower;
 mod frame;
 pub mod history;
 mod inspector;

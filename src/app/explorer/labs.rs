@@ -7,6 +7,7 @@ use egui::Context;
 use super::Explorer;
 use super::jobs::Errand;
 use crate::app::arrangement::Pane;
+use crate::app::laboratory;
 use crate::app::loss::Wanted;
 use crate::app::object::Jobs;
 use crate::lab::files::{BENCH, LabError, prepare, write_bench};
@@ -65,14 +66,18 @@ impl Explorer {
     pub(super) fn picture_errors(&mut self, ctx: &Context) {
         let wanted = self.errors_wanted.take();
         if self.complete {
-            self.labs.bench.errors.complete(wanted, ctx);
+            let make = |wanted: &laboratory::Wanted, progress: &_| wanted.make(ctx, progress);
+            self.labs.bench.errors.complete(wanted, make);
             return;
         }
         let mut jobs = Jobs {
             last_id: &mut self.next_job,
             ctx,
         };
-        if let Err(why) = self.labs.bench.errors.follow(wanted, &mut jobs) {
+        let painter = ctx.clone();
+        let make = move |wanted: &laboratory::Wanted, progress: &_| wanted.make(&painter, progress);
+        let errors = &mut self.labs.bench.errors;
+        if let Err(why) = errors.follow(wanted, "where it errs", &mut jobs, make) {
             self.fail(why);
         }
     }

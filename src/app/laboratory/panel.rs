@@ -88,9 +88,8 @@ fn errors_ui(ui: &mut Ui, model: &mut Model<'_>, height: f32) {
     };
     let top = ui.cursor().top();
     let shown = model.labs.bench.errors.shown();
-    let is_of =
-        |shown: &&ShownErrors| shown.wanted.map == map && shown.wanted.evaluator == evaluator.id;
-    let shown = shown.filter(is_of);
+    let is_of = |(of, _): &(&Wanted, _)| of.map == map && of.evaluator == evaluator.id;
+    let shown = shown.filter(is_of).map(|(_, shown)| shown);
     let ns = significant(choice.row.ns);
     let name = format!("{} by {}", map.info().id, evaluator.id);
     let text = match shown {

@@ -2,9 +2,7 @@
 
 use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 
-use crate::app::job::{Job, Outcome};
-use crate::app::model::JobLine;
-use crate::app::object::{Jobs, job_line};
+use crate::app::follower::Follower;
 use crate::app::theme::{self, PICTURE_BACKGROUND};
 use crate::imaging::Progress;
 use crate::lab::error_map::{ErrorMap, Pixel, error_map};
@@ -24,18 +22,19 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    fn make(&self, progress: &Progress) -> Option<ErrorMap> {
+    /// Finds the errors and paints them; nothing when cancelled.
+    pub fn make(&self, ctx: &Context, progress: &Progress) -> Option<ShownErrors> {
         let evaluator = self.map.processor(self.evaluator)?;
-        error_map(
+        let errors = error_map(
             self.map, evaluator, self.rows, self.map, self.size, progress,
-        )
+        )?;
+        let picture = ctx.load_texture("errors", image(&errors), TextureOptions::NEAREST);
+        Some(ShownErrors { errors, picture })
     }
 }
 
-/// What is on the screen.
+/// The errors and their picture.
 pub struct ShownErrors {
-    /// What was asked for.
-    pub wanted: Wanted,
     /// The errors.
     pub errors: ErrorMap,
     /// Their picture.
@@ -43,87 +42,7 @@ pub struct ShownErrors {
 }
 
 /// The last picture, and the job that makes the next one.
-#[derive(Default)]
-pub struct ErrorPicture {
-    shown: Option<ShownErrors>,
-    job: Option<(Wanted, Job<Option<ErrorMap>>)>,
-    given_up: Option<Wanted>,
-}
-
-impl ErrorPicture {
-    /// Starts what is wanted and not there; stops what is not wanted any more. `None`: nobody looks.
-    ///
-    /// # Errors
-    /// When the system gives no thread.
-    pub fn follow(&mut self, wanted: Option<Wanted>, jobs: &mut Jobs<'_>) -> Result<(), String> {
-        self.job.take_if(|(of, _)| Some(&*of) != wanted.as_ref());
-        let Some(wanted) = wanted.filter(|wanted| self.is_missing(wanted)) else {
-            return Ok(());
-        };
-        self.given_up = Some(wanted.clone());
-        let of = wanted.clone();
-        let job = jobs.start("where it errs".to_owned(), move |progress| {
-            of.make(progress)
-        })?;
-        self.given_up = None;
-        self.job = Some((wanted, job));
-        Ok(())
-    }
-
-    /// Waits for what is wanted: for pictures.
-    pub fn complete(&mut self, wanted: Option<Wanted>, ctx: &Context) {
-        if let Some(wanted) = wanted.filter(|wanted| self.is_missing(wanted)) {
-            match wanted.make(&Progress::new()) {
-                Some(errors) => self.take_in(wanted, errors, ctx),
-                None => self.given_up = Some(wanted),
-            }
-        }
-    }
-
-    fn take_in(&mut self, wanted: Wanted, errors: ErrorMap, ctx: &Context) {
-        let picture = ctx.load_texture("errors", image(&errors), TextureOptions::NEAREST);
-        self.shown = Some(ShownErrors {
-            wanted,
-            errors,
-            picture,
-        });
-    }
-
-    fn is_missing(&self, wanted: &Wanted) -> bool {
-        let is_there = self.shown.as_ref().is_some_and(|s| s.wanted == *wanted);
-        let is_coming = self.job.is_some();
-        !is_there && !is_coming && self.given_up.as_ref() != Some(wanted)
-    }
-
-    /// Takes in what the job has brought.
-    pub fn poll(&mut self, ctx: &Context) {
-        let Some((wanted, job)) = self.job.take() else {
-            return;
-        };
-        match job.poll() {
-            Outcome::Running => self.job = Some((wanted, job)),
-            Outcome::Done(Some(errors)) => self.take_in(wanted, errors, ctx),
-            Outcome::Done(None) | Outcome::Failed => self.given_up = Some(wanted),
-        }
-    }
-
-    /// The last picture.
-    pub fn shown(&self) -> Option<&ShownErrors> {
-        self.shown.as_ref()
-    }
-
-    /// The job under way.
-    pub fn job(&self) -> Option<JobLine> {
-        self.job.as_ref().map(|(_, job)| job_line(job))
-    }
-
-    /// Stops the job of that number.
-    pub fn cancel(&mut self, id: u64) {
-        if let Some((wanted, _)) = self.job.take_if(|(_, job)| job.id == id) {
-            self.given_up = Some(wanted);
-        }
-    }
-}
+pub type ErrorPicture = Follower<Wanted, ShownErrors>;
 
 /// Errors in the scale's colours, from 0 to the largest.
 fn image(errors: &ErrorMap) -> ColorImage {
