@@ -284,12 +284,8 @@ fn a_click_on_a_point_or_a_line_uses_its_evaluator_and_undo_takes_it_back() {
 fn the_picture_shows_where_it_errs_and_a_click_moves_the_probe_there() {
     let mut ui = filled(laboratory(MappingId::Ccm), &[MappingId::Ccm]);
     let shown = |ui: &Ui| {
-        let shown = ui.state().explorer().labs().bench.errors.shown().unwrap();
-        (
-            shown.wanted.evaluator,
-            shown.errors.max_rad,
-            shown.errors.worst,
-        )
+        let (wanted, shown) = ui.state().explorer().labs().bench.errors.shown().unwrap();
+        (wanted.evaluator, shown.errors.max_rad, shown.errors.worst)
     };
     let (evaluator, fine, _) = shown(&ui);
     assert_eq!(evaluator, "f32");

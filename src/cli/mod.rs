@@ -11,6 +11,7 @@ mod devices;
 mod eval;
 mod figure;
 mod maps;
+mod metrics;
 mod plan;
 mod render;
 mod stress;
@@ -76,6 +77,8 @@ enum Command {
     Bench(bench::BenchOptions),
     /// Numerical stress test of the same
     Stress(stress::StressOptions),
+    /// How every mapping distorts areas and angles
+    Metrics(metrics::MetricsOptions),
     /// Draw one picture without opening a window
     Render(Box<RenderOptions>),
     /// Draw the figures of the source articles anew
@@ -144,6 +147,7 @@ fn obey(cli: Cli, device: &dyn Device) -> Request {
         Some(Command::Stress(options)) => {
             finish(|out| stress::run(&options, device, out, io::stderr().lock()))
         }
+        Some(Command::Metrics(options)) => finish(|out| metrics::run(&options, out)),
         Some(Command::Render(options)) => Request::Render(options),
         Some(Command::Figure(options)) => Request::Figure(options),
         None => match cli.scene {

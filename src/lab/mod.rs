@@ -15,6 +15,7 @@ pub mod filter;
 pub mod front;
 pub mod inputs;
 pub mod machine;
+pub mod metrics;
 pub mod report;
 pub mod run;
 pub mod scatter;

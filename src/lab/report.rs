@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use super::bench::Row;
 use super::filter::is_widest;
+use super::metrics::{Metrics, UNBOUNDED};
 use super::stress;
 
 /// One JSON array, a row a line.
@@ -211,4 +212,54 @@ fn stress_cells(row: &stress::Row, family: &str, rows: &[&stress::Row]) -> [Stri
         beside(6),
         format!("{:.1}", worst[7]),
     ]
+}
+
+/// What the terminal shows of the metrics.
+pub fn metrics_table(rows: &[Metrics]) -> String {
+    const TITLES: [&str; 13] = [
+        "MAP",
+        "CLAIMS",
+        "CHARTS",
+        "AREA MAX/MIN",
+        "AREA RMS",
+        "A/B MEAN",
+        "A/B MAX",
+        "OMEGA MEAN",
+        "OMEGA MAX",
+        "LINEAR",
+        "BUDGET",
+        "EDGES",
+        "DIAGONALS",
+    ];
+    let number = |value: f64, places: usize| {
+        if value.is_finite() {
+            format!("{value:.places$}")
+        } else {
+            UNBOUNDED.to_owned()
+        }
+    };
+    let cells = |row: &Metrics| {
+        let claims = match (row.equal_area, row.conformal) {
+            (true, _) => "equal-area",
+            (_, true) => "conformal",
+            _ => "-",
+        };
+        [
+            row.mapping.to_string(),
+            claims.to_owned(),
+            row.charts.to_string(),
+            number(row.area_ratio, 4),
+            number(row.area_rms, 4),
+            number(row.anisotropy_mean, 4),
+            number(row.anisotropy_max, 4),
+            format!("{:.2}°", row.omega_mean_deg),
+            format!("{:.2}°", row.omega_max_deg),
+            number(row.worst_linear, 4),
+            number(row.texel_budget, 4),
+            number(row.edge_ratio, 4),
+            number(row.diagonal_ratio, 4),
+        ]
+    };
+    let cells: Vec<[String; 13]> = rows.iter().map(cells).collect();
+    table(TITLES, 2, &cells)
 }

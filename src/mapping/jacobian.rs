@@ -37,6 +37,16 @@ impl<R: Real> Jacobian<R> {
         )
     }
 
+    /// The same where the chart is a square of as many texels as a chart `aspect` times as wide as high: areas stay, and square
+    /// texels have sides of equal length.
+    pub fn of_square_texels(&self, aspect: R) -> Self {
+        let root = aspect.sqrt();
+        Self {
+            du: self.du * (R::one() / root),
+            dv: self.dv * root,
+        }
+    }
+
     /// Ratio of the axes, at least 1; infinite where the chart collapses.
     pub fn anisotropy(&self) -> R {
         let (large, small) = self.singular_values();
@@ -68,30 +78,5 @@ impl MappingId {
                 dv: column(1),
             },
         ))
-    }
-
-    /// Solid angle in sr of the texel (column, row) of a chart of `size` = [width, height] texels, by Gauss's rule with
-    /// 3 x 3 nodes, exact to the sixth order of the texel's size where the map is smooth: a texel across whose diagonal the
-    /// octahedral map is folded is off by a thousandth at 64 x 64. Parts outside the domain count nothing.
-    pub fn texel_solid_angle_sr(self, chart: u32, texel: [u32; 2], size: [u32; 2]) -> f64 {
-        // Nodes and weights of Gauss-Legendre quadrature with three points on [0, 1].
-        let offset = 0.5 * 0.6_f64.sqrt();
-        let rule = [
-            (0.5 - offset, 5.0 / 18.0),
-            (0.5, 8.0 / 18.0),
-            (0.5 + offset, 5.0 / 18.0),
-        ];
-        let cell = [1.0 / f64::from(size[0]), 1.0 / f64::from(size[1])];
-        let mut sum = 0.0;
-        for (x, weight_x) in rule {
-            for (y, weight_y) in rule {
-                let u = (f64::from(texel[0]) + x) * cell[0];
-                let v = (f64::from(texel[1]) + y) * cell[1];
-                if let Some((_, jacobian)) = self.jacobian(ChartPoint::new(chart, u, v)) {
-                    sum += weight_x * weight_y * jacobian.area_scale();
-                }
-            }
-        }
-        sum * cell[0] * cell[1]
     }
 }

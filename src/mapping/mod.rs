@@ -14,6 +14,7 @@ mod registry;
 mod arrangement;
 mod axes;
 mod chart;
+mod chart_integral;
 mod convention;
 pub mod cube_face;
 mod device;
@@ -34,6 +35,7 @@ pub use axes::Axes;
 pub use chart::{
     Borders, ChartPoint, Claims, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot,
 };
+pub use chart_integral::integrate;
 pub use convention::{Convention, Erratum, ForwardFn, InverseFn};
 pub use device::{Adapter, Device, DeviceTime, NoDevice, Shader, Work};
 pub use evaluator::{Evaluator, EvaluatorError, EvaluatorInfo, Processor, Runs};

@@ -11,6 +11,7 @@ mod convert;
 mod eval;
 mod interrupted;
 mod maps;
+mod metrics;
 #[cfg(feature = "explorer")]
 mod render;
 mod streams;

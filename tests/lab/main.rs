@@ -10,5 +10,6 @@
 mod bench;
 mod command;
 mod evaluators;
+mod metrics;
 mod microscope;
 mod stress;
