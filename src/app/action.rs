@@ -118,6 +118,7 @@ impl Action {
             Self::SetTexelBudget(_) => Some(("texels", None)),
             Self::SetDensity(_) => Some(("density", None)),
             Self::SetMaterial(_) => Some(("material", None)),
+            Self::SetOverlays(_) => Some(("overlays", None)),
             Self::SetStory(_) => Some(("story", None)),
             Self::SetLoss(_) => Some(("loss", None)),
             Self::SetStability(_) => Some(("stability", None)),
@@ -222,7 +223,7 @@ pub fn apply(state: &mut AppState, action: Action) {
             let (low, high) = super::state::TEXEL_BUDGET_RANGE;
             state.texel_budget = budget.clamp(low, high);
         }
-        Action::SetOverlays(overlays) => state.overlays = overlays,
+        Action::SetOverlays(overlays) => state.overlays = overlays.sanitized(),
         Action::SetProbe { dir, eye_ray } => {
             state.probe = unit(dir);
             state.eye_ray = eye_ray;

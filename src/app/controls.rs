@@ -12,6 +12,8 @@ use super::state::{EXPOSURE_RANGE, MOST_MAGNIFIED, TEXEL_BUDGET_RANGE};
 use super::turning::rotation_ui;
 use crate::gpu::ToneCurve;
 use crate::imaging::{Environment, short_name};
+use crate::lab::metrics::Quantity;
+use crate::lab::metrics::tissot::SPACING_DEG;
 use crate::mapping::{MappingId, ShaderForm};
 use crate::scene::Object;
 
@@ -227,6 +229,23 @@ fn overlays_ui(ui: &mut Ui, model: &mut Model<'_>) {
         (&mut overlays.names, "names of the charts"),
     ] {
         ui.checkbox(on, name);
+    }
+    let heats = std::iter::once(None).chain(Quantity::ALL.map(Some));
+    let name = |heat: &Option<Quantity>| heat.map_or("light", Quantity::name).to_owned();
+    if let Some(heat) = choose_ui(ui, "panels show", &overlays.heat, heats, name) {
+        overlays.heat = heat;
+    }
+    ui.checkbox(&mut overlays.ellipses, "Tissot's ellipses")
+        .on_hover_text("What each mapping makes of equal circles of the sphere");
+    if overlays.ellipses {
+        let range = SPACING_DEG.0..=SPACING_DEG.1;
+        let label = ui.label("a circle every");
+        ui.add(
+            Slider::new(&mut overlays.ellipses_deg, range)
+                .suffix("°")
+                .step_by(1.0),
+        )
+        .labelled_by(label.id);
     }
     if overlays != model.state.overlays {
         model.push(Action::SetOverlays(overlays));

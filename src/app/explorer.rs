@@ -14,6 +14,7 @@ use super::action::{Action, apply};
 use super::arrangement::{Arrangement, Pane};
 use super::command::Command;
 use super::dialogs::{Dialog, dialog_ui};
+use super::distortion::HeatWanted;
 use super::export::Export;
 use super::files::Opened;
 use super::frame::frame_of;
@@ -59,6 +60,7 @@ pub struct Explorer {
     /// The views that were laid out last, with their size in pixels.
     laid_out: Vec<(ViewKey, [u32; 2])>,
     errors_wanted: Option<laboratory::Wanted>,
+    heat_wanted: Vec<HeatWanted>,
     surroundings: Option<Surroundings>,
     loading: Option<Job<Result<Loading, Refusal>>>,
     opening: Option<Job<Result<Opened, String>>>,
@@ -103,6 +105,7 @@ impl Explorer {
             microscope_px: None,
             laid_out: Vec::new(),
             errors_wanted: None,
+            heat_wanted: Vec::new(),
             surroundings: None,
             loading: None,
             opening: None,
@@ -205,6 +208,7 @@ impl Explorer {
         self.measure_loss(&ctx);
         self.look(&ctx);
         self.picture_errors(&ctx);
+        self.paint_heat(&ctx);
         self.measure_pace(&ctx);
         // What was just changed is seen in the next frame; a still window asks for none.
         let draws_on = (self.pending && !self.waits) || self.laid_out != laid_out;
@@ -229,6 +233,7 @@ impl Explorer {
         let ctx = ui.ctx().clone();
         self.draw_views(&ctx, &laid_out);
         self.look(&ctx);
+        self.paint_heat(&ctx);
     }
 
     /// Runs `show` on a model of what there is; gives back what was asked for and what was laid out.
@@ -253,6 +258,7 @@ impl Explorer {
             used: Used::of(state, self.labs.bench.rows(), map, pixels),
             pixels_per_texel: pixels,
             errors_wanted: None,
+            heat_wanted: Vec::new(),
             seen: Vec::new(),
             microscope_px: None,
             texel_color: self.probed,
@@ -272,6 +278,7 @@ impl Explorer {
         let (commands, laid_out) = (model.commands, model.laid_out);
         self.microscope_px = model.microscope_px;
         (self.seen, self.errors_wanted) = (model.seen, model.errors_wanted);
+        self.heat_wanted = model.heat_wanted;
         (commands, laid_out)
     }
 

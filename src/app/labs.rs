@@ -2,6 +2,7 @@
 
 use egui::Context;
 
+use super::distortion::HeatMaps;
 use super::laboratory::BenchLab;
 use super::loss::LossLab;
 use super::model::JobLine;
@@ -26,15 +27,22 @@ pub struct Labs {
     pub stability: StabilityLab,
     /// Run time against error.
     pub bench: BenchLab,
+    /// Heat maps of distortion.
+    pub heat: HeatMaps,
 }
 
 impl Labs {
-    fn all(&self) -> [&dyn Lab; 3] {
-        [&self.loss, &self.bench, &self.stability]
+    fn all(&self) -> [&dyn Lab; 4] {
+        [&self.loss, &self.bench, &self.stability, &self.heat]
     }
 
-    fn all_mut(&mut self) -> [&mut dyn Lab; 3] {
-        [&mut self.loss, &mut self.bench, &mut self.stability]
+    fn all_mut(&mut self) -> [&mut dyn Lab; 4] {
+        [
+            &mut self.loss,
+            &mut self.bench,
+            &mut self.stability,
+            &mut self.heat,
+        ]
     }
 
     /// Takes in what the jobs have brought.

@@ -3,6 +3,7 @@
 use egui::{Align2, Color32, PointerButton, Pos2, Rect, Response, Sense, Ui};
 
 use super::action::{Action, probe_at};
+use super::distortion::{paint_distortion, paint_legend};
 use super::marks::{cross_mark, dot, edged_line, edged_text, footprint, ring};
 use super::model::Model;
 use super::panel_view::PanelWindow;
@@ -34,6 +35,7 @@ pub fn map_panel_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
     let window = window_of(&view, rect);
     pointer(ui, model, view, &window, &response);
     let painter = ui.painter_at(rect);
+    paint_distortion(model, &painter, mapping, &window);
     if model.state.overlays.names {
         paint_chart_names(&painter, mapping, &window);
     }
@@ -43,6 +45,7 @@ pub fn map_panel_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
     if let Some(step) = model.painted_step() {
         paint_story(&painter, step, mapping, &window);
     }
+    paint_legend(&painter, model, mapping, rect);
 }
 
 /// What the pointer does: finds directions, pans and zooms.

@@ -11,6 +11,7 @@ pub mod command;
 mod controls;
 mod curves;
 mod dialogs;
+pub mod distortion;
 pub mod explorer;
 pub mod export;
 mod export_dialog;

@@ -10,6 +10,7 @@ use crate::scene::Target;
 use super::action::Action;
 use super::arrangement::Pane;
 use super::command::Command;
+use super::distortion::HeatWanted;
 use super::history::History;
 use super::laboratory::{Used, Wanted};
 use super::labs::Labs;
@@ -82,6 +83,8 @@ pub struct Model<'a> {
     pub pixels_per_texel: f64,
     /// The picture of errors that is seen.
     pub errors_wanted: Option<Wanted>,
+    /// The heat maps that are seen.
+    pub heat_wanted: Vec<HeatWanted>,
     /// The panes that are drawn: what only a hidden one would show is not computed.
     pub seen: Vec<Pane>,
     /// Pixels of the microscope's picture, where it is laid out.

@@ -256,6 +256,7 @@ impl AppState {
         self.texel_budget = self
             .texel_budget
             .clamp(TEXEL_BUDGET_RANGE.0, TEXEL_BUDGET_RANGE.1);
+        self.overlays = self.overlays.sanitized();
         self.density = self.density.clamp(DENSITY_RANGE.0, DENSITY_RANGE.1);
         self.material = self.material.sanitized();
         self.compare_material = self.compare_material.map(Material::sanitized);

@@ -82,6 +82,22 @@ impl Explorer {
         }
     }
 
+    /// Makes the heat maps that are seen.
+    pub(super) fn paint_heat(&mut self, ctx: &Context) {
+        let wanted = std::mem::take(&mut self.heat_wanted);
+        if self.complete {
+            self.labs.heat.complete(&wanted, ctx);
+            return;
+        }
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        if let Err(why) = self.labs.heat.follow(&wanted, &mut jobs) {
+            self.fail(why);
+        }
+    }
+
     /// Asks the evaluators of the selected mapping where they break.
     pub(super) fn measure_stability(&mut self, ctx: &Context) {
         let mut jobs = Jobs {

@@ -2,13 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::lab::metrics::Quantity;
+use crate::lab::metrics::tissot::SPACING_DEG;
 use crate::mapping::MappingId;
 
 /// Smallest and largest magnification of a panel: at the largest, a texel of the finest map fills the panel.
 pub const ZOOM_RANGE: (f32, f32) = (0.5, 4096.0);
 
 /// What is drawn over the pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Overlays {
     /// The six great circles A to F.
@@ -27,6 +29,12 @@ pub struct Overlays {
     pub names: bool,
     /// Rings over the viewport that turn the environment.
     pub rings: bool,
+    /// A map's distortion in place of its light.
+    pub heat: Option<Quantity>,
+    /// What the mapping makes of equal circles of the sphere.
+    pub ellipses: bool,
+    /// How far those circles are from each other in degrees, in [`SPACING_DEG`].
+    pub ellipses_deg: f32,
 }
 
 impl Default for Overlays {
@@ -40,6 +48,9 @@ impl Default for Overlays {
             probe: true,
             names: true,
             rings: false,
+            heat: None,
+            ellipses: false,
+            ellipses_deg: 20.0,
         }
     }
 }
@@ -55,7 +66,24 @@ impl Overlays {
         probe: false,
         names: false,
         rings: false,
+        heat: None,
+        ellipses: false,
+        ellipses_deg: 20.0,
     };
+
+    /// With every number in its range.
+    pub fn sanitized(self) -> Self {
+        let (least, most) = SPACING_DEG;
+        let spacing = if self.ellipses_deg.is_finite() {
+            self.ellipses_deg.clamp(least, most)
+        } else {
+            Self::NONE.ellipses_deg
+        };
+        Self {
+            ellipses_deg: spacing,
+            ..self
+        }
+    }
 }
 
 /// The panel of one mapping.

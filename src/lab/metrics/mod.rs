@@ -4,7 +4,9 @@
 //! Square* and *Survey of Cube Mapping Methods*. They are integrals by Gauss's rule over the smooth pieces of a chart, so they do not depend on a number of texels.
 
 mod extremes;
+pub mod heat;
 mod local;
+pub mod tissot;
 
 use std::sync::LazyLock;
 
