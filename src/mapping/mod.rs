@@ -29,6 +29,7 @@ mod seed_forms;
 mod shader_form;
 mod slices;
 mod turn;
+mod unfolding;
 
 pub use arrangement::{Arrangement, ArrangementError, Held};
 pub use axes::Axes;
@@ -46,6 +47,7 @@ pub use layout::{Cell, Layout};
 pub use shader_form::ShaderForm;
 pub use slices::{DirList, Dirs, DirsMut, NOWHERE, PointList, Points, PointsMut};
 pub use turn::Turn;
+pub use unfolding::{Solid, Unfolding};
 
 use crate::math::{Real, Vec3};
 
