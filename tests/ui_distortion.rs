@@ -15,6 +15,7 @@ use std::sync::Arc;
 use egui_kittest::kittest::Queryable;
 use sixfold::app::action::{Action, apply};
 use sixfold::app::arrangement::Pane;
+use sixfold::app::distortion::Seen;
 use sixfold::app::model::Surroundings;
 use sixfold::app::picture::{self, Destination, Picture, PictureRequest, What};
 use sixfold::app::state::{AppState, Overlays};
@@ -41,7 +42,7 @@ fn heat(quantity: Quantity) -> Overlays {
 
 fn has_heat(ui: &Ui, map: MappingId, quantity: Quantity) -> bool {
     let labs = ui.state().explorer().labs();
-    labs.heat.picture(map, quantity).is_some()
+    labs.heat.picture(map, Seen::Panel, quantity).is_some()
 }
 
 fn draw(state: &AppState, what: What, size: [u32; 2]) -> Picture {

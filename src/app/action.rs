@@ -7,14 +7,14 @@ use crate::imaging::Environment;
 use crate::mapping::{ChartPoint, EvaluatorInfo, MappingId};
 use crate::math::{Rotation, Vec3};
 use crate::optics::Material;
-use crate::scene::Object;
+use crate::scene::{Camera, Object};
 
 use super::arrangement::Pane;
 use super::figures::Figure;
 use super::probe;
 use super::state::{
-    AppState, CurvesState, EyeRay, FormState, InspectorState, LaboratoryState, LossState, Overlays,
-    PanelState, StabilityState, StoryState, unit,
+    AppState, CurvesState, EyeRay, FoldState, FormState, InspectorState, LaboratoryState,
+    LossState, Overlays, PanelState, StabilityState, StoryState, unit,
 };
 
 /// One change of the state.
@@ -58,6 +58,10 @@ pub enum Action {
     FaceDirection([f32; 3]),
     /// Show or hide the laboratory, or look at something else in it.
     SetLaboratory(Box<LaboratoryState>),
+    /// Show or hide the folded map, or fold it otherwise.
+    SetFold(FoldState),
+    /// Another eye before the folded map.
+    SetFoldCamera(Camera),
     /// Compute a mapping, which is then looked up, by the evaluator of that name.
     UseEvaluator(MappingId, String),
     /// Turn the camera by these angles in radians.
@@ -123,6 +127,7 @@ impl Action {
             Self::SetLoss(_) => Some(("loss", None)),
             Self::SetStability(_) => Some(("stability", None)),
             Self::SetLaboratory(_) => Some(("laboratory", None)),
+            Self::SetFold(_) | Self::SetFoldCamera(_) => Some(("fold", None)),
             Self::SetPanelView(view) => Some(("panel", Some(view.mapping))),
             _ => None,
         }
@@ -196,6 +201,11 @@ pub fn apply(state: &mut AppState, action: Action) {
             set_open(state, Pane::Laboratory, laboratory.open);
             state.laboratory = laboratory.sanitized();
         }
+        Action::SetFold(fold) => {
+            set_open(state, Pane::Fold, fold.open);
+            state.fold = fold.sanitized();
+        }
+        Action::SetFoldCamera(camera) => state.fold.camera = camera.sanitized(),
         Action::UseEvaluator(mapping, id) => {
             match mapping.evaluator(&id).and_then(EvaluatorInfo::form) {
                 // The viewport draws by a shader; what the processor computes stays as it is.

@@ -28,9 +28,24 @@ pub struct HeatWanted {
     pub quantity: Quantity,
     /// Columns and rows of the picture.
     pub size: [usize; 2],
+    /// Where it is shown.
+    pub seen: Seen,
+}
+
+/// Where a heat map is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Seen {
+    /// In the mapping's panel.
+    Panel,
+    /// On the folded surface.
+    Surface,
 }
 
 impl HeatWanted {
+    fn key(&self) -> (MappingId, Seen) {
+        (self.mapping, self.seen)
+    }
+
     fn make(&self, ctx: &Context, progress: &Progress) -> Option<egui::TextureHandle> {
         let places = heat(self.mapping, self.quantity, self.size, progress)?;
         let color = |place: &f32| {
@@ -45,10 +60,10 @@ impl HeatWanted {
     }
 }
 
-/// The heat maps that were made last, one a mapping.
+/// The heat maps that were made last, one a mapping and place.
 #[derive(Default)]
 pub struct HeatMaps {
-    maps: HashMap<MappingId, Follower<HeatWanted, egui::TextureHandle>>,
+    maps: HashMap<(MappingId, Seen), Follower<HeatWanted, egui::TextureHandle>>,
 }
 
 impl HeatMaps {
@@ -58,9 +73,9 @@ impl HeatMaps {
     /// When the system gives no thread.
     pub fn follow(&mut self, wanted: &[HeatWanted], jobs: &mut Jobs<'_>) -> Result<(), String> {
         self.maps
-            .retain(|map, _| wanted.iter().any(|wanted| wanted.mapping == *map));
+            .retain(|key, _| wanted.iter().any(|wanted| wanted.key() == *key));
         for wanted in wanted {
-            let follower = self.maps.entry(wanted.mapping).or_default();
+            let follower = self.maps.entry(wanted.key()).or_default();
             let painter = jobs.ctx.clone();
             let title = format!("distortion of {}", wanted.mapping.info().name);
             follower.follow(Some(*wanted), title, jobs, move |wanted, progress| {
@@ -73,14 +88,19 @@ impl HeatMaps {
     /// Makes what is wanted at once: for pictures.
     pub fn complete(&mut self, wanted: &[HeatWanted], ctx: &Context) {
         for wanted in wanted {
-            let follower = self.maps.entry(wanted.mapping).or_default();
+            let follower = self.maps.entry(wanted.key()).or_default();
             follower.complete(Some(*wanted), |wanted, progress| wanted.make(ctx, progress));
         }
     }
 
     /// The last picture of a mapping's quantity; while a finer one is made, the coarser stands in.
-    pub fn picture(&self, mapping: MappingId, quantity: Quantity) -> Option<egui::TextureId> {
-        let (of, picture) = self.maps.get(&mapping)?.shown()?;
+    pub fn picture(
+        &self,
+        mapping: MappingId,
+        seen: Seen,
+        quantity: Quantity,
+    ) -> Option<egui::TextureId> {
+        let (of, picture) = self.maps.get(&(mapping, seen))?.shown()?;
         (of.quantity == quantity).then(|| picture.id())
     }
 }
@@ -139,8 +159,9 @@ fn paint_heat(
         mapping,
         quantity,
         size: [side(pixels.x), side(pixels.y)],
+        seen: Seen::Panel,
     });
-    if let Some(picture) = model.labs.heat.picture(mapping, quantity) {
+    if let Some(picture) = model.labs.heat.picture(mapping, Seen::Panel, quantity) {
         let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
         painter.image(picture, rect, whole, Color32::WHITE);
     }

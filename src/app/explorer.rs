@@ -61,6 +61,7 @@ pub struct Explorer {
     laid_out: Vec<(ViewKey, [u32; 2])>,
     errors_wanted: Option<laboratory::Wanted>,
     heat_wanted: Vec<HeatWanted>,
+    folds: bool,
     surroundings: Option<Surroundings>,
     loading: Option<Job<Result<Loading, Refusal>>>,
     opening: Option<Job<Result<Opened, String>>>,
@@ -106,6 +107,7 @@ impl Explorer {
             laid_out: Vec::new(),
             errors_wanted: None,
             heat_wanted: Vec::new(),
+            folds: false,
             surroundings: None,
             loading: None,
             opening: None,
@@ -209,6 +211,7 @@ impl Explorer {
         self.look(&ctx);
         self.picture_errors(&ctx);
         self.paint_heat(&ctx);
+        self.light_fold(&ctx);
         self.measure_pace(&ctx);
         // What was just changed is seen in the next frame; a still window asks for none.
         let draws_on = (self.pending && !self.waits) || self.laid_out != laid_out;
@@ -228,12 +231,14 @@ impl Explorer {
             picture::What::Viewport => super::viewport::viewport_ui(ui, model),
             picture::What::Panel(mapping) => super::map_panel::map_panel_ui(ui, model, mapping),
             picture::What::Microscope => super::microscope::microscope_ui(ui, model),
+            picture::What::Fold => super::fold::surface_ui(ui, model),
             picture::What::Window => {}
         });
         let ctx = ui.ctx().clone();
         self.draw_views(&ctx, &laid_out);
         self.look(&ctx);
         self.paint_heat(&ctx);
+        self.light_fold(&ctx);
     }
 
     /// Runs `show` on a model of what there is; gives back what was asked for and what was laid out.
@@ -259,6 +264,7 @@ impl Explorer {
             pixels_per_texel: pixels,
             errors_wanted: None,
             heat_wanted: Vec::new(),
+            folds: false,
             seen: Vec::new(),
             microscope_px: None,
             texel_color: self.probed,
@@ -278,7 +284,7 @@ impl Explorer {
         let (commands, laid_out) = (model.commands, model.laid_out);
         self.microscope_px = model.microscope_px;
         (self.seen, self.errors_wanted) = (model.seen, model.errors_wanted);
-        self.heat_wanted = model.heat_wanted;
+        (self.heat_wanted, self.folds) = (model.heat_wanted, model.folds);
         (commands, laid_out)
     }
 
@@ -434,6 +440,8 @@ impl Explorer {
     fn replace(&mut self, ctx: &Context, state: AppState) {
         let environment = state.environment.clone();
         self.state = state;
+        // What moved when the state was left does not move anew.
+        self.state.fold.towards = None;
         self.follow_state();
         let shown = self
             .surroundings

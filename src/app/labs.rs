@@ -3,6 +3,7 @@
 use egui::Context;
 
 use super::distortion::HeatMaps;
+use super::fold::FoldLab;
 use super::laboratory::BenchLab;
 use super::loss::LossLab;
 use super::model::JobLine;
@@ -29,19 +30,28 @@ pub struct Labs {
     pub bench: BenchLab,
     /// Heat maps of distortion.
     pub heat: HeatMaps,
+    /// The light of the folded map.
+    pub fold: FoldLab,
 }
 
 impl Labs {
-    fn all(&self) -> [&dyn Lab; 4] {
-        [&self.loss, &self.bench, &self.stability, &self.heat]
+    fn all(&self) -> [&dyn Lab; 5] {
+        [
+            &self.loss,
+            &self.bench,
+            &self.stability,
+            &self.heat,
+            &self.fold,
+        ]
     }
 
-    fn all_mut(&mut self) -> [&mut dyn Lab; 4] {
+    fn all_mut(&mut self) -> [&mut dyn Lab; 5] {
         [
             &mut self.loss,
             &mut self.bench,
             &mut self.stability,
             &mut self.heat,
+            &mut self.fold,
         ]
     }
 

@@ -17,6 +17,7 @@ pub mod export;
 mod export_dialog;
 pub mod figures;
 pub mod files;
+pub mod fold;
 mod follower;
 mod frame;
 pub mod history;

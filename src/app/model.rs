@@ -85,6 +85,8 @@ pub struct Model<'a> {
     pub errors_wanted: Option<Wanted>,
     /// The heat maps that are seen.
     pub heat_wanted: Vec<HeatWanted>,
+    /// The light of the folded map is seen.
+    pub folds: bool,
     /// The panes that are drawn: what only a hidden one would show is not computed.
     pub seen: Vec<Pane>,
     /// Pixels of the microscope's picture, where it is laid out.

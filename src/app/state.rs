@@ -1,5 +1,6 @@
 //! What the window shows, as plain data: saved scenes, undo and exports are copies of it. What one pane shows is beside it.
 
+mod fold;
 mod form;
 mod laboratory;
 mod loss;
@@ -24,6 +25,7 @@ use super::arrangement::{Arrangement, Pane};
 use super::objects::target_of;
 use super::viewport::looked_up;
 
+pub use fold::FoldState;
 pub use form::FormState;
 pub use laboratory::{BUDGET_TEXELS, Column, LaboratoryState};
 pub use loss::{LOSS_ROWS, LossState, MOST_MAGNIFIED};
@@ -97,6 +99,8 @@ pub struct AppState {
     pub stability: StabilityState,
     /// Run time against error, and which evaluators are used; scenes before form 5 know none.
     pub laboratory: LaboratoryState,
+    /// The map that is folded.
+    pub fold: FoldState,
     /// The controls at the left are shown.
     pub controls_open: bool,
     /// What the inspector shows.
@@ -197,6 +201,7 @@ impl Default for AppState {
             loss: LossState::default(),
             stability: StabilityState::default(),
             laboratory: LaboratoryState::default(),
+            fold: FoldState::default(),
             controls_open: true,
             inspector: InspectorState::default(),
         }
@@ -257,6 +262,7 @@ impl AppState {
             .texel_budget
             .clamp(TEXEL_BUDGET_RANGE.0, TEXEL_BUDGET_RANGE.1);
         self.overlays = self.overlays.sanitized();
+        self.fold = self.fold.sanitized();
         self.density = self.density.clamp(DENSITY_RANGE.0, DENSITY_RANGE.1);
         self.material = self.material.sanitized();
         self.compare_material = self.compare_material.map(Material::sanitized);
@@ -321,6 +327,7 @@ impl AppState {
             Pane::Loss => self.loss.open,
             Pane::Stability => self.stability.open,
             Pane::Laboratory => self.laboratory.open,
+            Pane::Fold => self.fold.open,
             Pane::Map(mapping) => self.panel(mapping).open,
         }
     }
@@ -334,6 +341,7 @@ impl AppState {
             Pane::Loss => Some(&mut self.loss.open),
             Pane::Stability => Some(&mut self.stability.open),
             Pane::Laboratory => Some(&mut self.laboratory.open),
+            Pane::Fold => Some(&mut self.fold.open),
             Pane::Map(mapping) => Some(&mut self.panel_mut(mapping)?.open),
         }
     }

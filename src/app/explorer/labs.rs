@@ -7,6 +7,7 @@ use egui::Context;
 use super::Explorer;
 use super::jobs::Errand;
 use crate::app::arrangement::Pane;
+use crate::app::fold::LightWanted;
 use crate::app::laboratory;
 use crate::app::loss::Wanted;
 use crate::app::object::Jobs;
@@ -94,6 +95,26 @@ impl Explorer {
             ctx,
         };
         if let Err(why) = self.labs.heat.follow(&wanted, &mut jobs) {
+            self.fail(why);
+        }
+    }
+
+    /// Makes the light of the folded map that is seen.
+    pub(super) fn light_fold(&mut self, ctx: &Context) {
+        let seen = self.surroundings.as_ref().filter(|_| self.folds);
+        let wanted = seen.map(|shown| LightWanted::new(&self.state, &shown.loaded));
+        let light = &mut self.labs.fold.light;
+        if self.complete {
+            light.complete(wanted, |wanted, progress| wanted.make(ctx, progress));
+            return;
+        }
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        let painter = ctx.clone();
+        let make = move |wanted: &LightWanted, progress: &_| wanted.make(&painter, progress);
+        if let Err(why) = light.follow(wanted, "the light to fold", &mut jobs, make) {
             self.fail(why);
         }
     }

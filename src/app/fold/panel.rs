@@ -1,0 +1,243 @@
+//! The pane: a slider from the flat picture to the sphere, and the surface.
+
+use egui::epaint::{Mesh, Vertex};
+use egui::{Align2, Color32, Pos2, RichText, Sense, Slider, Ui, pos2, vec2};
+
+use super::lines::{Kind, lines};
+use super::view::{Quad, Surface};
+use crate::app::action::{Action, probe_at};
+use crate::app::distortion::{HeatWanted, Seen, paint_legend};
+use crate::app::marks::{cross_mark, edged_line, edged_text};
+use crate::app::model::Model;
+use crate::app::state::FoldState;
+use crate::app::theme;
+use crate::gpu::GREAT_CIRCLE_COLORS;
+use crate::mapping::{ChartPoint, MappingId};
+
+/// From this share on the outside hides the inside: a little before the solid is closed.
+const CLOSED: f32 = 0.45;
+
+/// Shows the pane in all the space there is.
+pub fn fold_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    theme::pane_frame(ui).show(ui, |ui| {
+        controls_ui(ui, model);
+        surface_ui(ui, model);
+    });
+}
+
+fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    let mut fold = model.state.fold;
+    let name = model.state.mapping.info().name;
+    let between = crate::mapping::Unfolding::new(model.state.mapping).solid();
+    let way = match between {
+        Some(solid) => format!("{name}: flat, {}, sphere", solid.name()),
+        None => format!("{name}: flat, sphere"),
+    };
+    ui.horizontal_wrapped(|ui| {
+        let moves = fold.towards.is_some();
+        let is_far = fold.share > 0.5;
+        let title = match (moves, is_far) {
+            (true, _) => "Stop",
+            (false, false) => "Fold",
+            (false, true) => "Unfold",
+        };
+        if ui.button(title).clicked() {
+            fold.towards = (!moves).then_some(if is_far { 0.0 } else { 1.0 });
+        }
+        let label = ui.label(way);
+        let slider = Slider::new(&mut fold.share, 0.0..=1.0).show_value(false);
+        if ui.add(slider).labelled_by(label.id).changed() {
+            fold.towards = None;
+        }
+        ui.checkbox(&mut fold.see_through, "see through")
+            .on_hover_text("What is seen from outside lets through what lies behind it");
+        ui.label(RichText::new("from outside every picture is mirrored").small());
+    });
+    if fold.towards.is_some() {
+        fold = fold.after(ui.input(|i| i.stable_dt));
+        ui.ctx().request_repaint();
+    }
+    if fold != model.state.fold {
+        model.push(Action::SetFold(fold));
+    }
+}
+
+/// The surface alone, in all the space there is.
+pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    let rect = ui.available_rect_before_wrap();
+    if rect.width() < 1.0 || rect.height() < 1.0 {
+        return;
+    }
+    let response = ui.allocate_rect(rect, Sense::click_and_drag());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Folded map"));
+    let state = model.state;
+    let surface = Surface::new(
+        state.mapping,
+        state.fold.share,
+        state.fold.camera,
+        rect.width() / rect.height(),
+    );
+    let quads = surface.quads();
+    let on_screen = |at: [f32; 2]| rect.min + vec2(at[0], at[1]) * rect.size();
+    let painter = ui.painter_at(rect);
+    let [r, g, b] = theme::PICTURE_BACKGROUND;
+    painter.rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
+
+    let see_through = state.fold.see_through;
+    let picture = picture_of(model, state.mapping);
+    if let Some(picture) = picture {
+        let layer = |is_outside| {
+            let own = quads
+                .iter()
+                .filter(move |quad: &&Quad| quad.is_outside == is_outside);
+            let tint = if is_outside && see_through {
+                Color32::from_white_alpha(70)
+            } else {
+                Color32::WHITE
+            };
+            (own, tint)
+        };
+        // The insides that are seen lie behind all outsides: on a closed surface, and on one that opens towards the eye.
+        for is_outside in [false, true] {
+            let (own, tint) = layer(is_outside);
+            painter.add(mesh(state.mapping, picture, own, tint, on_screen));
+        }
+    }
+    for line in lines(&surface, state.overlays) {
+        let behind = !line.is_outside && !see_through && state.fold.share >= CLOSED;
+        if behind {
+            continue;
+        }
+        let faint = if line.is_outside && see_through {
+            0.45
+        } else {
+            1.0
+        };
+        let points: Vec<Pos2> = line.at.into_iter().map(on_screen).collect();
+        let (width, color) = pen(line.kind);
+        edged_line(&painter, points, width, color.gamma_multiply(faint));
+    }
+    if state.overlays.names {
+        paint_names(&painter, &surface, on_screen);
+    }
+    if state.overlays.probe
+        && let Some(point) = state.mapping.forward(state.probe_f64())
+        && let Some((at, _)) = surface.seen(point)
+    {
+        cross_mark(&painter, on_screen(at), theme::PROBE);
+    }
+    let clicked = response
+        .interact_pointer_pos()
+        .filter(|_| response.clicked());
+    if let Some(pos) = clicked {
+        let place = (pos - rect.min) / rect.size();
+        let hit = surface.hit(&quads, [place.x, place.y], see_through);
+        if let Some(action) = hit.and_then(|point| probe_at(state.mapping, point)) {
+            model.push(action);
+            model.push(Action::FollowPointer(false));
+        }
+    }
+    paint_legend(&painter, model, state.mapping, rect);
+    turn(ui, model, &response);
+}
+
+/// Drags turn, the wheel zooms, a double click goes back.
+fn turn(ui: &Ui, model: &mut Model<'_>, response: &egui::Response) {
+    /// Radians for each point.
+    const TURN: f32 = 0.008;
+    let mut fold = model.state.fold;
+    let drag = response.drag_delta();
+    if drag != egui::Vec2::ZERO {
+        fold.camera.orbit(drag.x * TURN, drag.y * TURN);
+    }
+    let scroll = ui.input(|i| i.smooth_scroll_delta.y);
+    if response.contains_pointer() && scroll != 0.0 {
+        fold.camera.zoom((scroll * 0.005).exp());
+    }
+    if response.double_clicked() {
+        fold.camera = FoldState::default().camera;
+    }
+    if fold.camera != model.state.fold.camera {
+        // Not beside what the slider has just said: the next frame takes its turn.
+        model.push(Action::SetFoldCamera(fold.camera));
+    }
+}
+
+/// The heat map that is switched on, or the light.
+fn picture_of(model: &mut Model<'_>, mapping: MappingId) -> Option<egui::TextureId> {
+    let Some(quantity) = model.state.overlays.heat else {
+        model.folds = true;
+        return model.labs.fold.light_of(mapping);
+    };
+    /// Height of the picture in pixels: the surface is seldom larger on the screen.
+    const ROWS: f64 = 512.0;
+    let info = mapping.info();
+    let aspect = info.layout.picture_aspect(info.aspect);
+    let wanted = HeatWanted {
+        mapping,
+        quantity,
+        size: [(ROWS * aspect) as usize, ROWS as usize],
+        seen: Seen::Surface,
+    };
+    model.heat_wanted.push(wanted);
+    model.labs.heat.picture(mapping, Seen::Surface, quantity)
+}
+
+/// Half a texel of the light's picture, which has about 192 along a chart.
+const INSIDE: f64 = 0.5 / 192.0;
+
+fn mesh<'a>(
+    mapping: MappingId,
+    picture: egui::TextureId,
+    quads: impl Iterator<Item = &'a Quad>,
+    tint: Color32,
+    on_screen: impl Fn([f32; 2]) -> Pos2,
+) -> egui::Shape {
+    let layout = mapping.info().layout;
+    let mut mesh = Mesh::with_texture(picture);
+    for quad in quads {
+        let first = mesh.vertices.len() as u32;
+        for (corner, at) in quad.corners.into_iter().zip(quad.at) {
+            // Half a texel from its border, beyond which another chart or nothing lies.
+            let inside = |c: f64| c.clamp(INSIDE, 1.0 - INSIDE);
+            let corner = ChartPoint::new(corner.chart, inside(corner.u), inside(corner.v));
+            let [x, y] = layout.picture_from_chart(corner).unwrap_or_default();
+            mesh.vertices.push(Vertex {
+                pos: on_screen(at),
+                uv: pos2(x as f32, y as f32),
+                color: tint,
+            });
+        }
+        mesh.add_triangle(first, first + 1, first + 2);
+        mesh.add_triangle(first, first + 2, first + 3);
+    }
+    egui::Shape::mesh(mesh)
+}
+
+fn pen(kind: Kind) -> (f32, Color32) {
+    match kind {
+        Kind::Border => (1.5, Color32::from_gray(235)),
+        Kind::Grid => (0.8, Color32::from_gray(200)),
+        Kind::GreatCircle(index) => {
+            let [r, g, b] = GREAT_CIRCLE_COLORS[index];
+            (2.0, Color32::from_rgb(r, g, b))
+        }
+        Kind::Ellipse => (1.2, theme::TEXEL),
+    }
+}
+
+/// The name of each chart in its middle, where it is seen from inside.
+fn paint_names(painter: &egui::Painter, surface: &Surface, on_screen: impl Fn([f32; 2]) -> Pos2) {
+    let charts = surface.map().info().charts;
+    if charts.len() < 2 {
+        return;
+    }
+    for (chart, name) in charts.iter().enumerate() {
+        let middle = ChartPoint::new(chart as u32, 0.5, 0.5);
+        let is_outside = surface.is_outside(middle);
+        if let Some((at, _)) = surface.seen(middle) {
+            let color = Color32::from_gray(if is_outside { 150 } else { 235 });
+            edged_text(painter, on_screen(at), Align2::CENTER_CENTER, name, color);
+        }
+    }
+}

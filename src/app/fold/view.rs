@@ -1,0 +1,280 @@
+//! Where the points of a folded map are seen.
+
+use std::f64::consts::TAU;
+
+use crate::mapping::{ChartPoint, Domain, MappingId, Unfolding};
+use crate::math::Vec3;
+use crate::scene::Camera;
+
+/// A folded map before an eye, on a screen of some shape.
+pub struct Surface {
+    map: MappingId,
+    unfolding: Unfolding,
+    share: f64,
+    middle: Vec3<f64>,
+    radius: f64,
+    camera: Camera,
+    eye: glam::Vec3,
+    aspect: f32,
+}
+
+/// A piece of the surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Quad {
+    /// Its corners, around it.
+    pub corners: [ChartPoint<f64>; 4],
+    /// Where they are on the screen, in [0, 1]^2, v down.
+    pub at: [[f32; 2]; 4],
+    /// From the eye to its middle.
+    pub depth: f32,
+    /// It is seen from outside, where the picture is mirrored.
+    pub is_outside: bool,
+}
+
+/// Pieces of the surface: enough that it looks round.
+const PIECES: f64 = 4096.0;
+
+impl Surface {
+    /// A mapping folded so far.
+    pub fn new(map: MappingId, share: f32, camera: Camera, aspect: f32) -> Self {
+        let unfolding = Unfolding::new(map);
+        let share = f64::from(share);
+        let (middle, radius) = unfolding.ball(share);
+        Self {
+            map,
+            unfolding,
+            share,
+            middle,
+            radius,
+            eye: camera.eye(),
+            camera,
+            aspect,
+        }
+    }
+
+    /// The mapping.
+    pub fn map(&self) -> MappingId {
+        self.map
+    }
+
+    /// What lies halfway.
+    pub fn solid(&self) -> Option<crate::mapping::Solid> {
+        self.unfolding.solid()
+    }
+
+    fn place(&self, point: ChartPoint<f64>) -> glam::Vec3 {
+        let place = (self.unfolding.place(point, self.share) - self.middle) * (1.0 / self.radius);
+        let [x, y, z] = place.to_f64().map(|c| c as f32);
+        glam::Vec3::new(x, y, z)
+    }
+
+    /// Where a chart point is on the screen, in [0, 1]^2, v down, and how far from the eye.
+    pub fn seen(&self, point: ChartPoint<f64>) -> Option<([f32; 2], f32)> {
+        let place = self.place(point);
+        let (x, y) = self.camera.project(place, self.aspect)?;
+        Some(([x, y], place.distance(self.eye)))
+    }
+
+    /// Whether the surface is seen from outside there; on the flat picture, from behind.
+    pub fn is_outside(&self, point: ChartPoint<f64>) -> bool {
+        /// A step that leaves the chart nowhere by more than the gutter goes on.
+        const STEP: f64 = 1e-3;
+        let inward = |c: f64| if c > 0.5 { -STEP } else { STEP };
+        let [du, dv] = [inward(point.u), inward(point.v)];
+        let at = |u: f64, v: f64| {
+            self.seen(ChartPoint::new(point.chart, u, v))
+                .map(|seen| seen.0)
+        };
+        let (Some(o), Some(a), Some(b)) = (
+            at(point.u, point.v),
+            at(point.u + du, point.v),
+            at(point.u, point.v + dv),
+        ) else {
+            return false;
+        };
+        let turn = (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+        (turn < 0.0) == (du * dv > 0.0)
+    }
+
+    /// The surface in pieces, the farthest first.
+    pub fn quads(&self) -> Vec<Quad> {
+        let info = self.map.info();
+        let steps = (PIECES / f64::from(info.chart_count())).sqrt().round() as u32;
+        let mut quads = Vec::new();
+        for chart in 0..info.chart_count() {
+            let point = |i: u32, j: u32| {
+                let [s, t] = [i, j].map(|k| f64::from(k) / f64::from(steps));
+                match info.domain {
+                    Domain::Square => ChartPoint::new(chart, s, t),
+                    Domain::Disc => {
+                        // Outwards, then around: the same sense as u, then v.
+                        let (sin, cos) = (TAU * t).sin_cos();
+                        ChartPoint::new(chart, 0.5 + 0.5 * s * cos, 0.5 + 0.5 * s * sin)
+                    }
+                }
+            };
+            let row = |j: u32| -> Vec<_> {
+                (0..=steps)
+                    .map(|i| {
+                        let point = point(i, j);
+                        (point, self.seen(point))
+                    })
+                    .collect()
+            };
+            let mut above = row(0);
+            for j in 1..=steps {
+                let below = row(j);
+                for i in 0..steps as usize {
+                    let mut corners = [above[i], above[i + 1], below[i + 1], below[i]];
+                    // Cut into triangles along the diamond, on which an octahedron is folded.
+                    let is_falling = (corners[0].0.u < 0.5) == (corners[0].0.v < 0.5);
+                    corners.rotate_left(usize::from(is_falling));
+                    quads.extend(quad(corners));
+                }
+                above = below;
+            }
+        }
+        quads.sort_by(|a, b| b.depth.total_cmp(&a.depth));
+        quads
+    }
+
+    /// The chart point under a place of the screen: of the nearest piece, or of the nearest that is seen from inside where what is seen from
+    /// outside lets through.
+    pub fn hit(
+        &self,
+        quads: &[Quad],
+        place: [f32; 2],
+        see_through: bool,
+    ) -> Option<ChartPoint<f64>> {
+        let found = |quad: &Quad| inside(quad, place);
+        let nearest = || quads.iter().rev();
+        let first = nearest()
+            .filter(|quad| !see_through || !quad.is_outside)
+            .find_map(found);
+        first.or_else(|| nearest().find_map(found))
+    }
+}
+
+type Corner = (ChartPoint<f64>, Option<([f32; 2], f32)>);
+
+fn quad(corners: [Corner; 4]) -> Option<Quad> {
+    let seen = corners.map(|(_, seen)| seen);
+    let [Some(a), Some(b), Some(c), Some(d)] = seen else {
+        return None;
+    };
+    let at = [a, b, c, d].map(|(at, _)| at);
+    let across = |i: usize, j: usize| [at[j][0] - at[i][0], at[j][1] - at[i][1]];
+    let (ac, bd) = (across(0, 2), across(1, 3));
+    Some(Quad {
+        corners: corners.map(|(point, _)| point),
+        at,
+        depth: 0.25 * (a.1 + b.1 + c.1 + d.1),
+        is_outside: ac[0] * bd[1] - ac[1] * bd[0] < 0.0,
+    })
+}
+
+/// The chart point of a place in one of a piece's two triangles.
+fn inside(quad: &Quad, place: [f32; 2]) -> Option<ChartPoint<f64>> {
+    for [i, j, k] in [[0, 1, 2], [0, 2, 3]] {
+        let [a, b, c] = [i, j, k].map(|k: usize| quad.at[k]);
+        let cross = |p: [f32; 2], q: [f32; 2], r: [f32; 2]| {
+            (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+        };
+        let whole = cross(a, b, c);
+        let shares = [cross(place, b, c), cross(a, place, c), cross(a, b, place)]
+            .map(|part| f64::from(part / whole));
+        if shares.iter().all(|share| *share >= 0.0) {
+            let mix = |of: fn(&ChartPoint<f64>) -> f64| {
+                let corners = [i, j, k].map(|k: usize| of(&quad.corners[k]));
+                corners.iter().zip(shares).map(|(c, share)| c * share).sum()
+            };
+            return Some(ChartPoint::new(
+                quad.corners[0].chart,
+                mix(|p| p.u),
+                mix(|p| p.v),
+            ));
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn surface(map: MappingId, share: f32) -> Surface {
+        Surface::new(map, share, Camera::default(), 1.0)
+    }
+
+    #[test]
+    fn the_flat_picture_is_seen_upright_and_from_inside() {
+        for &map in MappingId::ALL {
+            let flat = surface(map, 0.0);
+            let quads = flat.quads();
+            assert!(quads.len() > 3000, "{map}");
+            assert!(quads.iter().all(|quad| !quad.is_outside), "{map}");
+            assert!(quads.windows(2).all(|pair| pair[0].depth >= pair[1].depth));
+            // All of it is on the screen.
+            let on = |c: f32| (-0.01..=1.01).contains(&c);
+            assert!(
+                quads
+                    .iter()
+                    .flat_map(|q| q.at.into_iter().flatten())
+                    .all(on),
+                "{map}"
+            );
+            // From behind it is mirrored.
+            let turned = Camera {
+                yaw_rad: std::f32::consts::PI,
+                ..Camera::default()
+            };
+            let behind = Surface::new(map, 0.0, turned, 1.0).quads();
+            assert!(behind.iter().all(|quad| quad.is_outside), "control: {map}");
+        }
+    }
+
+    #[test]
+    fn half_of_the_sphere_is_seen_from_outside() {
+        for &map in MappingId::ALL {
+            let round = surface(map, 1.0);
+            let quads = round.quads();
+            let outside = quads.iter().filter(|quad| quad.is_outside).count();
+            let share = outside as f64 / quads.len() as f64;
+            assert!(share < 0.75, "{map}: {share}");
+            for quad in quads.iter().step_by(37) {
+                let [a, _, c, _] = quad.corners;
+                let middle = ChartPoint::new(a.chart, 0.5 * (a.u + c.u), 0.5 * (a.v + c.v));
+                // Where a texel is a line, at a pole or a rim, nothing can be told.
+                if map
+                    .jacobian(middle)
+                    .is_some_and(|(_, j)| j.anisotropy() < 5.0)
+                    && quad.depth < 2.9
+                {
+                    assert_eq!(
+                        round.is_outside(middle),
+                        quad.is_outside,
+                        "{map} {middle:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_drawn_at_a_place_is_hit_there() {
+        let round = surface(MappingId::Ccm, 1.0);
+        let quads = round.quads();
+        for point in [ChartPoint::new(4, 0.3, 0.6), ChartPoint::new(4, 0.52, 0.5)] {
+            let (at, _) = round.seen(point).unwrap();
+            let hit = round.hit(&quads, at, true).unwrap();
+            assert_eq!(hit.chart, 4);
+            assert!(
+                (hit.u - point.u).abs() < 2e-3 && (hit.v - point.v).abs() < 2e-3,
+                "{hit:?}"
+            );
+            // In front of +z, at the far side, lies -z.
+            assert_eq!(round.hit(&quads, at, false).unwrap().chart, 5);
+        }
+        assert_eq!(round.hit(&quads, [0.01, 0.01], true), None);
+    }
+}
