@@ -23,18 +23,21 @@ pub enum Pane {
     Loss,
     /// Where the ways to compute a mapping break.
     Stability,
+    /// Two mappings with as many texels.
+    Budget,
     /// Run time against error.
     Laboratory,
 }
 
 impl Pane {
     /// The panes that are read more than looked at: the window's menu lists them, and they need height.
-    pub const READ: [Self; 5] = [
+    pub const READ: [Self; 6] = [
         Self::Curves,
         Self::Story,
         Self::Loss,
         Self::Laboratory,
         Self::Stability,
+        Self::Budget,
     ];
 
     /// Its title.
@@ -46,6 +49,7 @@ impl Pane {
             Self::Story => "Ray story",
             Self::Loss => "Loss laboratory",
             Self::Stability => "Stability",
+            Self::Budget => "Equal texel budget",
             Self::Laboratory => "Run time and error",
         }
     }

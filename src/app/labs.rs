@@ -2,6 +2,7 @@
 
 use egui::Context;
 
+use super::budget::BudgetLab;
 use super::distortion::HeatMaps;
 use super::laboratory::BenchLab;
 use super::loss::LossLab;
@@ -14,6 +15,10 @@ pub trait Lab {
     fn poll(&mut self, ctx: &Context);
     /// Its jobs under way.
     fn jobs(&self) -> Vec<JobLine>;
+    /// True while a job runs.
+    fn is_busy(&self) -> bool {
+        !self.jobs().is_empty()
+    }
     /// Stops the job of that number, if it is its own.
     fn cancel(&mut self, id: u64);
 }
@@ -29,19 +34,28 @@ pub struct Labs {
     pub bench: BenchLab,
     /// Heat maps of distortion.
     pub heat: HeatMaps,
+    /// Two mappings with as many texels.
+    pub budget: BudgetLab,
 }
 
 impl Labs {
-    fn all(&self) -> [&dyn Lab; 4] {
-        [&self.loss, &self.bench, &self.stability, &self.heat]
+    fn all(&self) -> [&dyn Lab; 5] {
+        [
+            &self.loss,
+            &self.bench,
+            &self.stability,
+            &self.heat,
+            &self.budget,
+        ]
     }
 
-    fn all_mut(&mut self) -> [&mut dyn Lab; 4] {
+    fn all_mut(&mut self) -> [&mut dyn Lab; 5] {
         [
             &mut self.loss,
             &mut self.bench,
             &mut self.stability,
             &mut self.heat,
+            &mut self.budget,
         ]
     }
 
@@ -57,7 +71,7 @@ impl Labs {
 
     /// True while a job runs.
     pub fn is_busy(&self) -> bool {
-        self.all().into_iter().any(|lab| !lab.jobs().is_empty())
+        self.all().into_iter().any(Lab::is_busy)
     }
 
     /// Stops the job of that number.

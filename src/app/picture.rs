@@ -24,6 +24,8 @@ pub enum What {
     Panel(MappingId),
     /// What the microscope of the stability pane shows.
     Microscope,
+    /// The pictures of the equal texel budget.
+    Budget,
 }
 
 impl What {
@@ -33,6 +35,7 @@ impl What {
             Self::Window => "the whole window".to_owned(),
             Self::Viewport => "the viewport".to_owned(),
             Self::Microscope => "the microscope".to_owned(),
+            Self::Budget => "the equal texel budget".to_owned(),
             Self::Panel(mapping) => format!("the panel {}", mapping.info().name),
         }
     }
