@@ -13,8 +13,8 @@ use super::arrangement::Pane;
 use super::figures::Figure;
 use super::probe;
 use super::state::{
-    AppState, CurvesState, EyeRay, FoldState, FormState, InspectorState, LaboratoryState,
-    LossState, Overlays, PanelState, StabilityState, StoryState, unit,
+    AppState, BudgetState, CurvesState, EyeRay, FoldState, FormState, InspectorState,
+    LaboratoryState, LossState, Overlays, PanelState, StabilityState, StoryState, unit,
 };
 
 /// One change of the state.
@@ -54,6 +54,8 @@ pub enum Action {
     SetLoss(LossState),
     /// Show or hide the stability pane, or look at something else in it.
     SetStability(Box<StabilityState>),
+    /// Show or hide the equal texel budget, or compare something else in it.
+    SetBudget(BudgetState),
     /// Put the eye where a mirror in the middle shows it this direction.
     FaceDirection([f32; 3]),
     /// Show or hide the laboratory, or look at something else in it.
@@ -126,6 +128,7 @@ impl Action {
             Self::SetStory(_) => Some(("story", None)),
             Self::SetLoss(_) => Some(("loss", None)),
             Self::SetStability(_) => Some(("stability", None)),
+            Self::SetBudget(_) => Some(("budget", None)),
             Self::SetLaboratory(_) => Some(("laboratory", None)),
             Self::SetFold(_) | Self::SetFoldCamera(_) => Some(("fold", None)),
             Self::SetPanelView(view) => Some(("panel", Some(view.mapping))),
@@ -195,6 +198,10 @@ pub fn apply(state: &mut AppState, action: Action) {
         Action::SetStability(stability) => {
             set_open(state, Pane::Stability, stability.open);
             state.stability = stability.sanitized();
+        }
+        Action::SetBudget(budget) => {
+            set_open(state, Pane::Budget, budget.open);
+            state.budget = budget.sanitized();
         }
         Action::FaceDirection(dir) => state.camera.go_to(unit(dir).into()),
         Action::SetLaboratory(laboratory) => {

@@ -23,6 +23,8 @@ pub enum Pane {
     Loss,
     /// Where the ways to compute a mapping break.
     Stability,
+    /// Two mappings with as many texels.
+    Budget,
     /// Run time against error.
     Laboratory,
     /// The map between the flat picture and the sphere.
@@ -31,13 +33,14 @@ pub enum Pane {
 
 impl Pane {
     /// The panes that are read more than looked at: the window's menu lists them, and they need height.
-    pub const READ: [Self; 6] = [
+    pub const READ: [Self; 7] = [
         Self::Curves,
         Self::Story,
         Self::Loss,
         Self::Laboratory,
         Self::Stability,
         Self::Fold,
+        Self::Budget,
     ];
 
     /// Its title.
@@ -49,6 +52,7 @@ impl Pane {
             Self::Story => "Ray story",
             Self::Loss => "Loss laboratory",
             Self::Stability => "Stability",
+            Self::Budget => "Equal texel budget",
             Self::Laboratory => "Run time and error",
             Self::Fold => "Fold and unfold",
         }

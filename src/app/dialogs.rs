@@ -241,7 +241,13 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
             .selected_text(fields.what.name())
             .show_ui(ui, |ui| {
                 let maps = MappingId::ALL.iter().map(|m| What::Panel(*m));
-                let first = [What::Window, What::Viewport, What::Microscope, What::Fold];
+                let first = [
+                    What::Window,
+                    What::Viewport,
+                    What::Microscope,
+                    What::Fold,
+                    What::Budget,
+                ];
                 for what in first.into_iter().chain(maps) {
                     ui.selectable_value(&mut fields.what, what, what.name());
                 }

@@ -12,6 +12,7 @@ use egui::{Context, Panel, Ui};
 
 use super::action::{Action, apply};
 use super::arrangement::{Arrangement, Pane};
+use super::budget;
 use super::command::Command;
 use super::dialogs::{Dialog, dialog_ui};
 use super::distortion::HeatWanted;
@@ -57,6 +58,8 @@ pub struct Explorer {
     seen: Vec<Pane>,
     /// Pixels of the microscope's picture that was drawn last.
     microscope_px: Option<[usize; 2]>,
+    /// The pictures of the equal texel budget as they were laid out last.
+    budget_view: Option<budget::View>,
     /// The views that were laid out last, with their size in pixels.
     laid_out: Vec<(ViewKey, [u32; 2])>,
     errors_wanted: Option<laboratory::Wanted>,
@@ -104,6 +107,7 @@ impl Explorer {
             labs: Labs::default(),
             seen: Vec::new(),
             microscope_px: None,
+            budget_view: None,
             laid_out: Vec::new(),
             errors_wanted: None,
             heat_wanted: Vec::new(),
@@ -209,6 +213,7 @@ impl Explorer {
         self.draw_views(&ctx, &laid_out);
         self.measure_loss(&ctx);
         self.look(&ctx);
+        self.compare_budget(&ctx);
         self.picture_errors(&ctx);
         self.paint_heat(&ctx);
         self.light_fold(&ctx);
@@ -232,6 +237,9 @@ impl Explorer {
             picture::What::Panel(mapping) => super::map_panel::map_panel_ui(ui, model, mapping),
             picture::What::Microscope => super::microscope::microscope_ui(ui, model),
             picture::What::Fold => super::fold::surface_ui(ui, model),
+            picture::What::Budget => {
+                super::budget_panel::pictures_ui(ui, model);
+            }
             picture::What::Window => {}
         });
         let ctx = ui.ctx().clone();
@@ -239,6 +247,7 @@ impl Explorer {
         self.look(&ctx);
         self.paint_heat(&ctx);
         self.light_fold(&ctx);
+        self.compare_budget(&ctx);
     }
 
     /// Runs `show` on a model of what there is; gives back what was asked for and what was laid out.
@@ -267,6 +276,7 @@ impl Explorer {
             folds: false,
             seen: Vec::new(),
             microscope_px: None,
+            budget_view: None,
             texel_color: self.probed,
             plan: &self.plan,
             frames: self.frames,
@@ -283,6 +293,7 @@ impl Explorer {
         show(&mut model);
         let (commands, laid_out) = (model.commands, model.laid_out);
         self.microscope_px = model.microscope_px;
+        self.budget_view = model.budget_view;
         (self.seen, self.errors_wanted) = (model.seen, model.errors_wanted);
         (self.heat_wanted, self.folds) = (model.heat_wanted, model.folds);
         (commands, laid_out)

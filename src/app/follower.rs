@@ -86,6 +86,17 @@ impl<W: Clone + PartialEq + Send + 'static, T: Send + 'static> Follower<W, T> {
         self.shown.as_ref().map(|(wanted, made)| (wanted, made))
     }
 
+    /// What is being made.
+    pub fn making(&self) -> Option<&W> {
+        self.running.as_ref().map(|(wanted, _)| wanted)
+    }
+
+    /// Lets go of what was made for a wish of that kind, which would be kept in memory for nobody.
+    pub fn forget(&mut self, is_stale: impl Fn(&W) -> bool) {
+        self.shown.take_if(|(wanted, _)| is_stale(wanted));
+        self.given_up.take_if(|wanted| is_stale(wanted));
+    }
+
     /// The job under way.
     pub fn job(&self) -> Option<JobLine> {
         self.running.as_ref().map(|(_, job)| job_line(job))

@@ -2,6 +2,7 @@
 
 use egui::Context;
 
+use super::budget::BudgetLab;
 use super::distortion::HeatMaps;
 use super::fold::FoldLab;
 use super::laboratory::BenchLab;
@@ -15,6 +16,10 @@ pub trait Lab {
     fn poll(&mut self, ctx: &Context);
     /// Its jobs under way.
     fn jobs(&self) -> Vec<JobLine>;
+    /// True while a job runs.
+    fn is_busy(&self) -> bool {
+        !self.jobs().is_empty()
+    }
     /// Stops the job of that number, if it is its own.
     fn cancel(&mut self, id: u64);
 }
@@ -32,26 +37,30 @@ pub struct Labs {
     pub heat: HeatMaps,
     /// The light of the folded map.
     pub fold: FoldLab,
+    /// Two mappings with as many texels.
+    pub budget: BudgetLab,
 }
 
 impl Labs {
-    fn all(&self) -> [&dyn Lab; 5] {
+    fn all(&self) -> [&dyn Lab; 6] {
         [
             &self.loss,
             &self.bench,
             &self.stability,
             &self.heat,
             &self.fold,
+            &self.budget,
         ]
     }
 
-    fn all_mut(&mut self) -> [&mut dyn Lab; 5] {
+    fn all_mut(&mut self) -> [&mut dyn Lab; 6] {
         [
             &mut self.loss,
             &mut self.bench,
             &mut self.stability,
             &mut self.heat,
             &mut self.fold,
+            &mut self.budget,
         ]
     }
 
@@ -67,7 +76,7 @@ impl Labs {
 
     /// True while a job runs.
     pub fn is_busy(&self) -> bool {
-        self.all().into_iter().any(|lab| !lab.jobs().is_empty())
+        self.all().into_iter().any(Lab::is_busy)
     }
 
     /// Stops the job of that number.

@@ -7,6 +7,9 @@
 pub mod action;
 pub mod arrangement;
 mod bars;
+pub mod budget;
+mod budget_numbers;
+mod budget_panel;
 pub mod command;
 mod controls;
 mod curves;

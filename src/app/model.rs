@@ -91,6 +91,8 @@ pub struct Model<'a> {
     pub seen: Vec<Pane>,
     /// Pixels of the microscope's picture, where it is laid out.
     pub microscope_px: Option<[usize; 2]>,
+    /// The pictures of the equal texel budget, where they are laid out.
+    pub budget_view: Option<super::budget::View>,
     /// Linear colour of the probed texel in the selected map, when it has been read back.
     pub texel_color: Option<[f32; 3]>,
     /// The frame plan's account of the last drawing.

@@ -177,6 +177,11 @@ impl ObjectData {
         &self.body.target
     }
 
+    /// The same, to be kept by a job.
+    pub fn shared_target(&self) -> Shared<Target> {
+        self.body.target.clone()
+    }
+
     /// True when the body stands for the unit ball.
     pub fn is_ball(&self) -> bool {
         self.body.is_ball

@@ -26,6 +26,8 @@ pub enum What {
     Microscope,
     /// The map that is folded.
     Fold,
+    /// The pictures of the equal texel budget.
+    Budget,
 }
 
 impl What {
@@ -36,6 +38,7 @@ impl What {
             Self::Viewport => "the viewport".to_owned(),
             Self::Microscope => "the microscope".to_owned(),
             Self::Fold => "the folded map".to_owned(),
+            Self::Budget => "the equal texel budget".to_owned(),
             Self::Panel(mapping) => format!("the panel {}", mapping.info().name),
         }
     }

@@ -1,5 +1,6 @@
 //! What the window shows, as plain data: saved scenes, undo and exports are copies of it. What one pane shows is beside it.
 
+mod budget;
 mod fold;
 mod form;
 mod laboratory;
@@ -25,6 +26,7 @@ use super::arrangement::{Arrangement, Pane};
 use super::objects::target_of;
 use super::viewport::looked_up;
 
+pub use budget::{BudgetState, COMPARED_TEXELS, MAGNIFIERS};
 pub use fold::FoldState;
 pub use form::FormState;
 pub use laboratory::{BUDGET_TEXELS, Column, LaboratoryState};
@@ -97,6 +99,8 @@ pub struct AppState {
     pub loss: LossState,
     /// Where evaluators break.
     pub stability: StabilityState,
+    /// Two mappings with as many texels.
+    pub budget: BudgetState,
     /// Run time against error, and which evaluators are used; scenes before form 5 know none.
     pub laboratory: LaboratoryState,
     /// The map that is folded.
@@ -200,6 +204,7 @@ impl Default for AppState {
             story: StoryState::default(),
             loss: LossState::default(),
             stability: StabilityState::default(),
+            budget: BudgetState::default(),
             laboratory: LaboratoryState::default(),
             fold: FoldState::default(),
             controls_open: true,
@@ -269,6 +274,7 @@ impl AppState {
         self.form = self.form.sanitized();
         self.loss = self.loss.sanitized();
         self.stability = self.stability.sanitized();
+        self.budget = self.budget.sanitized();
         self.laboratory = self.laboratory.sanitized();
         self.probe = unit(self.probe);
         self.eye_ray = self.eye_ray.filter(|eye| {
@@ -326,6 +332,7 @@ impl AppState {
             Pane::Story => self.story.open,
             Pane::Loss => self.loss.open,
             Pane::Stability => self.stability.open,
+            Pane::Budget => self.budget.open,
             Pane::Laboratory => self.laboratory.open,
             Pane::Fold => self.fold.open,
             Pane::Map(mapping) => self.panel(mapping).open,
@@ -340,6 +347,7 @@ impl AppState {
             Pane::Story => Some(&mut self.story.open),
             Pane::Loss => Some(&mut self.loss.open),
             Pane::Stability => Some(&mut self.stability.open),
+            Pane::Budget => Some(&mut self.budget.open),
             Pane::Laboratory => Some(&mut self.laboratory.open),
             Pane::Fold => Some(&mut self.fold.open),
             Pane::Map(mapping) => Some(&mut self.panel_mut(mapping)?.open),

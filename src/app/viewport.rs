@@ -1,6 +1,6 @@
 //! The viewport: the mirror object before its surroundings, turned by the pointer, with its marks.
 
-use egui::{Align2, Color32, PointerButton, Pos2, Rect, Response, Sense, Ui, pos2, vec2};
+use egui::{Align2, Color32, PointerButton, Pos2, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
 use glam::Vec3;
 
 use super::action::Action;
@@ -24,7 +24,7 @@ const ORBIT_RAD_PER_POINT: f32 = 0.008;
 const DIVIDER_GRIP: f32 = 8.0;
 
 /// Half the space of an arrow's name, in points.
-const NAME_SPACE: egui::Vec2 = vec2(34.0, 9.0);
+const NAME_SPACE: Vec2 = vec2(34.0, 9.0);
 
 /// Shows the viewport in all the space there is.
 pub fn viewport_ui(ui: &mut Ui, model: &mut Model<'_>) {
@@ -43,15 +43,36 @@ pub fn viewport_ui(ui: &mut Ui, model: &mut Model<'_>) {
     paint_marks(ui, model, rect);
 }
 
-fn aspect(rect: Rect) -> f32 {
+/// Width over height.
+pub(super) fn aspect(rect: Rect) -> f32 {
     rect.width() / rect.height()
 }
 
-/// What the pointer does: turns, zooms, and finds directions.
+/// What the pointer does in the viewport: what is seen there depends on the material on that side of the divider.
 fn pointer(ui: &Ui, model: &mut Model<'_>, rect: Rect, response: &Response) {
+    view_pointer(ui, model, rect, response, |model, place, ray| {
+        let state = model.state;
+        let eye_ray = EyeRay {
+            is_right: state.is_divided() && place.x > state.divider,
+            ..ray.into()
+        };
+        let dir = looked_up(model.target, ray, state.material_at(eye_ray.is_right));
+        (dir, eye_ray)
+    });
+}
+
+/// What the pointer does over a view through the camera: turns, zooms, and finds directions. `look` tells the direction that is
+/// seen at a place, from 0 to 1 each way, along a ray from the eye.
+pub(super) fn view_pointer(
+    ui: &Ui,
+    model: &mut Model<'_>,
+    rect: Rect,
+    response: &Response,
+    look: impl FnOnce(&Model<'_>, Vec2, Ray) -> (Vec3, EyeRay),
+) {
     if response.dragged_by(PointerButton::Primary) {
         let drag = response.drag_delta() * ORBIT_RAD_PER_POINT;
-        if drag != egui::Vec2::ZERO {
+        if drag != Vec2::ZERO {
             model.push(Action::Orbit {
                 dx_rad: drag.x,
                 dy_rad: drag.y,
@@ -68,19 +89,14 @@ fn pointer(ui: &Ui, model: &mut Model<'_>, rect: Rect, response: &Response) {
     let Some(pos) = response.hover_pos().or(response.interact_pointer_pos()) else {
         return;
     };
-    let moved = ui.input(|i| i.pointer.delta() != egui::Vec2::ZERO || i.pointer.any_pressed());
+    let moved = ui.input(|i| i.pointer.delta() != Vec2::ZERO || i.pointer.any_pressed());
     let dragged = response.dragged_by(PointerButton::Secondary);
     let clicked = response.clicked();
     let wanted = clicked || dragged || (model.state.probe_follows && moved);
     if wanted && rect.contains(pos) {
         let place = (pos - rect.min) / rect.size();
         let ray = model.state.camera.ray((place.x, place.y), aspect(rect));
-        let state = model.state;
-        let eye_ray = EyeRay {
-            is_right: state.is_divided() && place.x > state.divider,
-            ..ray.into()
-        };
-        let dir = looked_up(model.target, ray, state.material_at(eye_ray.is_right));
+        let (dir, eye_ray) = look(model, place, ray);
         model.push(Action::SetProbe {
             dir: dir.to_array(),
             eye_ray: Some(eye_ray),
@@ -205,7 +221,7 @@ fn paint_marks(ui: &Ui, model: &Model<'_>, rect: Rect) {
 
 /// What black and white mean where the error of a form is shown, in the lower right corner.
 fn paint_difference_legend(painter: &egui::Painter, model: &Model<'_>, rect: Rect) {
-    const BAR: egui::Vec2 = vec2(96.0, 10.0);
+    const BAR: Vec2 = vec2(96.0, 10.0);
     const STEPS: u8 = 12;
     let (shown, mapping) = (model.form, model.state.mapping);
     let form = mapping.form_or_precise(shown.form);

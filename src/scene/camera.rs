@@ -69,13 +69,32 @@ pub struct RayFrame {
 }
 
 impl RayFrame {
+    /// The part of the screen around `uv` that has this share of its width and of its height, as a screen of its own. Its plane
+    /// is the same, so that `forward` need not stand upright on it.
+    #[must_use]
+    pub fn part(&self, uv: (f32, f32), [width, height]: [f32; 2]) -> Self {
+        let forward = self.towards(uv);
+        let scale = forward.length().recip();
+        Self {
+            eye: self.eye,
+            forward: scale * forward,
+            right: scale * width * self.right,
+            up: scale * height * self.up,
+        }
+    }
+
+    /// From the eye to the plane.
+    fn towards(&self, (u, v): (f32, f32)) -> Vec3 {
+        self.forward + (2.0 * u - 1.0) * self.right + (1.0 - 2.0 * v) * self.up
+    }
+
     /// The ray from the eye through `uv` in `[0, 1]^2`, v down; points beyond the screen are as good.
     ///
     /// No matrix is inverted: the direction is a sum of the screen's own vectors, so that its error stays at the
     /// rounding of a unit vector, also for a narrow field of view.
     #[must_use]
-    pub fn ray(&self, (u, v): (f32, f32)) -> Ray {
-        let dir = self.forward + (2.0 * u - 1.0) * self.right + (1.0 - 2.0 * v) * self.up;
+    pub fn ray(&self, uv: (f32, f32)) -> Ray {
+        let dir = self.towards(uv);
         Ray {
             origin: self.eye,
             dir: dir.try_normalize().unwrap_or(self.forward),

@@ -5,13 +5,16 @@
 
 pub mod camera;
 pub mod mesh;
+pub mod mirror;
 pub mod object;
 pub mod pick;
+mod rows;
 mod teapot;
 pub mod trace;
 
 pub use camera::{Camera, Ray, RayFrame};
 pub use mesh::Mesh;
+pub use mirror::{Seen, mirror_view};
 pub use object::Object;
 pub use pick::{Hit, Target};
 pub use trace::{Escape, Escapes, Traced, trace, trace_view};

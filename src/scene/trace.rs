@@ -11,11 +11,9 @@
 //! Parts that overlap (the teapot's handle runs into its body) are one piece of glass: inside, a surface is only crossed
 //! when its last part is left. Where a part is open, a ray that finds no way out goes straight on.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-
 use glam::Vec3;
 
+use super::rows::fill_rows;
 use super::{Camera, Hit, Ray, Target};
 use crate::math;
 use crate::optics::ball::MAX_BOUNCES;
@@ -246,49 +244,20 @@ pub fn trace_view(
     dirs.resize(places, [0.0; 4]);
 
     let frame = camera.ray_frame(width as f32 / height as f32);
-    // Each row owns its part of every layer, so that any thread may fill it.
-    let parts = dirs.chunks_mut(pixels.max(1));
-    let parts: Vec<_> = parts
-        .map(|layer| layer.chunks_mut(width as usize))
-        .collect();
-    let waiting = Mutex::new((0..height, parts));
-    let next_row = || {
-        let mut waiting = waiting.lock().ok()?;
-        let (rows, parts) = &mut *waiting;
-        let row: Vec<_> = parts.iter_mut().filter_map(Iterator::next).collect();
-        // An empty picture has no parts, however high it is.
-        (!row.is_empty()).then_some(())?;
-        rows.next().map(|y| (y, row))
-    };
-    let (done, stopped) = (AtomicU32::new(0), AtomicBool::new(false));
-    let work = || {
-        while !stopped.load(Ordering::Relaxed)
-            && let Some((y, mut row)) = next_row()
-        {
-            let v = (y as f32 + 0.5) / height as f32;
-            for x in 0..width as usize {
-                let u = (x as f32 + 0.5) / width as f32;
-                let escapes = trace(target, frame.ray((u, v)), eta, bounces);
-                for (part, escape) in row.iter_mut().zip(escapes.as_slice()) {
-                    if let Some(place) = part.get_mut(x) {
-                        *place = escape.dir.extend(escape.weight).to_array();
-                    }
+    let planes = dirs.chunks_mut(pixels.max(1));
+    let is_whole = fill_rows(planes, size_px, stop, |y, row| {
+        let v = (y as f32 + 0.5) / height as f32;
+        for x in 0..width as usize {
+            let u = (x as f32 + 0.5) / width as f32;
+            let escapes = trace(target, frame.ray((u, v)), eta, bounces);
+            for (part, escape) in row.iter_mut().zip(escapes.as_slice()) {
+                if let Some(place) = part.get_mut(x) {
+                    *place = escape.dir.extend(escape.weight).to_array();
                 }
             }
-            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            if stop(done as f32 / height as f32) {
-                stopped.store(true, Ordering::Relaxed);
-            }
         }
-    };
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        for _ in 1..threads {
-            scope.spawn(work);
-        }
-        work();
     });
-    (!stopped.into_inner()).then_some(Traced {
+    is_whole.then_some(Traced {
         size: size_px,
         layers,
         dirs,

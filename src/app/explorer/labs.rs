@@ -7,6 +7,7 @@ use egui::Context;
 use super::Explorer;
 use super::jobs::Errand;
 use crate::app::arrangement::Pane;
+use crate::app::budget;
 use crate::app::fold::LightWanted;
 use crate::app::laboratory;
 use crate::app::loss::Wanted;
@@ -31,6 +32,31 @@ impl Explorer {
             ctx,
         };
         if let Err(why) = self.labs.loss.follow(wanted, &mut jobs) {
+            self.fail(why);
+        }
+    }
+
+    /// Makes the pictures of two maps with as many texels while they are seen.
+    pub(super) fn compare_budget(&mut self, ctx: &Context) {
+        let shown = self.surroundings.as_ref();
+        let view = self.budget_view;
+        let wanted = shown.zip(view).map(|(shown, view)| {
+            let target = self.object.shared_target();
+            budget::Wanted::new(&self.state, &shown.loaded, target, view.size)
+        });
+        let lens = view.and_then(|view| view.lens);
+        if let (None, Some(shown)) = (&wanted, shown) {
+            self.labs.budget.forget_others(&shown.loaded);
+        }
+        if self.complete {
+            self.labs.budget.complete(wanted, lens, ctx);
+            return;
+        }
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        if let Err(why) = self.labs.budget.follow(wanted, lens, &mut jobs) {
             self.fail(why);
         }
     }

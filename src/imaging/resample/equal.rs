@@ -39,6 +39,26 @@ pub fn chart_size(mapping: MappingId, height: u32) -> [u32; 2] {
     [width.max(1), height]
 }
 
+/// Size of the charts, [width, height], with which a map has as nearly `texels` texels as whole rows allow; at least one row.
+/// Of a disc all texels of its square count.
+pub fn size_of_texels(mapping: MappingId, texels: u64) -> [u32; 2] {
+    let per_row_squared = f64::from(mapping.info().chart_count()) * mapping.info().aspect;
+    // `as` saturates, and a chart of more rows than this is refused anyway.
+    let rows = ((texels as f64 / per_row_squared).sqrt() as u32).clamp(1, super::MOST_SIDE);
+    // The width is rounded as well, so that the rows below may be nearer too.
+    let around = rows.saturating_sub(1).max(1)..=rows + 1;
+    let sizes = around.map(|rows| chart_size(mapping, rows));
+    let off = |size: &[u32; 2]| texels_of(mapping, *size).abs_diff(texels);
+    sizes
+        .min_by_key(off)
+        .unwrap_or_else(|| chart_size(mapping, rows))
+}
+
+/// Texels of all charts of `size` texels together.
+pub fn texels_of(mapping: MappingId, [width, height]: [u32; 2]) -> u64 {
+    u64::from(mapping.info().chart_count()) * u64::from(width) * u64::from(height)
+}
+
 /// The rows of a chart at which a map has as many texels around the horizon as `source`, at least 1.
 ///
 /// A latlong of 4096 x 2048 has 4096 around; so have six faces of 1024.
@@ -102,6 +122,37 @@ mod tests {
                 &shape(*mapping, chart_size(*mapping, there)),
             );
             assert!(back.abs_diff(256) <= 1, "{mapping}: {there}, back {back}");
+        }
+    }
+
+    #[test]
+    fn maps_of_as_many_texels() {
+        for (mapping, texels, size) in [
+            (MappingId::Cube, 6 * 48 * 48, [48, 48]),
+            (MappingId::Latlong, 2 * 83 * 83, [166, 83]),
+            (MappingId::Paraboloid, 2 * 83 * 83, [83, 83]),
+            (MappingId::Octahedral, 6 * 48 * 48, [118, 118]),
+            (MappingId::Cube, 0, [1, 1]),
+        ] {
+            assert_eq!(size_of_texels(mapping, texels), size, "{mapping}");
+        }
+        for &mapping in MappingId::ALL {
+            for texels in [1536, 13_824, 1_572_864] {
+                let size = size_of_texels(mapping, texels);
+                let off = |size| texels_of(mapping, size).abs_diff(texels);
+                // A row more or less is farther off.
+                for rows in [size[1] - 1, size[1] + 1] {
+                    assert!(
+                        off(size) <= off(chart_size(mapping, rows)),
+                        "{mapping} {texels}"
+                    );
+                }
+            }
+            let most = size_of_texels(mapping, u64::MAX);
+            assert!(
+                most[1] <= crate::imaging::resample::MOST_SIDE + 1,
+                "{mapping}"
+            );
         }
     }
 

@@ -2,7 +2,8 @@
 //!
 //! - [`Conversion`]: what is wanted, plain data;
 //! - [`Plan`]: what can be computed before any pixel is there; one plan serves a sequence of frames;
-//! - [`Plan::run`]: fills a map, on all threads, strip by strip.
+//! - [`Plan::run`]: fills a map, on all threads, strip by strip;
+//! - [`light_towards`]: the light of a map in any directions, of a view's pixels for one.
 //!
 //! # How it works
 //!
@@ -40,13 +41,17 @@ mod report;
 mod stored;
 mod strips;
 mod texels;
+mod towards;
 
 pub use crate::math::Isa;
 pub use conversion::{Conversion, Filter, FilteredIn};
-pub use equal::{chart_size, equal_height, equal_rows, rotation_of_viewer};
+pub use equal::{
+    chart_size, equal_height, equal_rows, rotation_of_viewer, size_of_texels, texels_of,
+};
 pub use levels::levels;
 pub use plan::{MOST_SIDE, Plan};
 pub use report::{Report, Skipped};
+pub use towards::light_towards;
 
 use super::{EnvironmentMap, Progress};
 

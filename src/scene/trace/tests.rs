@@ -2,6 +2,8 @@ use std::f32::consts::TAU;
 use std::sync::Mutex;
 
 use super::super::{Mesh, Object};
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use super::*;
 use crate::math::angle_rad;
 use crate::optics::ball::{ball_paths, rainbow_angle_rad};
