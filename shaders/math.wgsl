@@ -85,3 +85,19 @@ fn unit_in_plane(p: vec2f) -> vec2f {
     let q = p / large;
     return q / sqrt(q.x * q.x + q.y * q.y);
 }
+
+// A point of one of two discs that share their rim, from the middle over the radius and y upwards.
+struct DiscPoint {
+    chart: u32,
+    place: vec2f,
+}
+
+// Beyond the rim it is the point of the other disc that lies as far within.
+fn over_rim(p: ChartPoint) -> DiscPoint {
+    let place = vec2f(2.0 * p.u - 1.0, 1.0 - 2.0 * p.v);
+    let radius = hypotenuse(place.x, place.y);
+    if radius <= 1.0 {
+        return DiscPoint(p.chart, place);
+    }
+    return DiscPoint(p.chart ^ 1u, vec2f(-place.x, place.y) * ((2.0 - radius) / radius));
+}

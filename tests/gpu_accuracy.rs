@@ -44,6 +44,8 @@ fn budget(id: MappingId) -> Errors {
         MappingId::Octahedral => (7e-7, 3e-7, 0.0),
         MappingId::OctahedralEqualArea => (1e-6, 3e-7, 0.0),
         MappingId::Angular => (1e-6, 1.2e-6, 0.0),
+        MappingId::Fisheye => (7e-7, 6e-7, 0.0),
+        MappingId::Equisolid => (7e-7, 8e-7, 0.0),
         MappingId::CylindricalEqualArea => (1.5e-6, 3e-7, 1.2),
         // The wide cube family: a division and a root, or an arctangent.
         _ => (3.8e-7, 2.9e-7, 0.0),

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::convention::{Convention, Erratum};
 use super::evaluator::EvaluatorInfo;
+use super::family::Family;
 use super::lanes::{self, AngleLanes, DirLanes, Lane, Line, PointLanes};
 use super::layout::Layout;
 use crate::math::{Real, Vec3};
@@ -223,6 +224,8 @@ pub struct MappingInfo {
     pub about: &'static str,
     /// Where it was published.
     pub source: &'static str,
+    /// Under which heading lists have it.
+    pub family: Family,
     /// Name of each chart, in order.
     pub charts: &'static [&'static str],
     /// Width of a chart over its height at which texels are square where the mapping is least distorted.
@@ -255,6 +258,7 @@ impl MappingInfo {
         name: "",
         about: "",
         source: "",
+        family: Family::Graticule,
         charts: &["all"],
         aspect: 1.0,
         domain: Domain::Square,
@@ -317,6 +321,17 @@ pub(super) fn height_squared<R: Real>(u: R, v: R) -> R {
     // Not `max` and `min`: on a tie both would give the same one, and a dual number would lose the other's derivative.
     let (large, small) = if a < b { (b, a) } else { (a, b) };
     (large - R::one()) + small
+}
+
+/// A point of one of two discs that share their rim, (p, q) from the middle over the radius with q upwards: beyond the rim it is the
+/// point of the other disc that lies as far within. The back one is seen from inside too, so that left is right there.
+pub(super) fn over_rim<R: Real>(chart: u32, p: R, q: R) -> (u32, R, R) {
+    let radius = p.hypot(q);
+    if radius <= R::one() {
+        return (chart, p, q);
+    }
+    let shrink = (R::two() - radius) / radius;
+    (chart ^ 1, -p * shrink, q * shrink)
 }
 
 /// What lies across the borders of the charts.
