@@ -101,3 +101,28 @@ fn over_rim(p: ChartPoint) -> DiscPoint {
     }
     return DiscPoint(p.chart ^ 1u, vec2f(-place.x, place.y) * ((2.0 - radius) / radius));
 }
+
+// ln(1 + t) for t >= 0: the power of two nearest to 1 + t, and 2 artanh(s) of the rest. The language's own is off by 2^-21 around 1.
+fn ln_1p(t: f32) -> f32 {
+    var k = 0.0;
+    var power = 1.0;
+    while 1.0 + t > 1.4142135 * power && power < 1e30 {
+        k += 1.0;
+        power *= 2.0;
+    }
+    let s = (t - (power - 1.0)) / (t + (1.0 + power));
+    let q = s * s;
+    let series = q * (1.0 / 3.0 + q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * (1.0 / 9.0))));
+    return k * LN_2_HIGH + (k * LN_2_LOW + 2.0 * (s + s * series));
+}
+
+// e^x - 1 for |x| <= 40.
+fn exp_m1(x: f32) -> f32 {
+    let k = round(x * 1.442695);
+    let f = (x - k * LN_2_HIGH) - k * LN_2_LOW;
+    let series = 1.0 / 2.0
+        + f * (1.0 / 6.0 + f * (1.0 / 24.0 + f * (1.0 / 120.0 + f * (1.0 / 720.0 + f * (1.0 / 5040.0)))));
+    let rest = f + f * f * series;
+    let power = ldexp(1.0, i32(k));
+    return (power - 1.0) + power * rest;
+}

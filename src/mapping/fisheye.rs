@@ -4,9 +4,7 @@
 //! angle from its axis, a right angle at the rim.
 
 use super::chart::{over_rim, to_signed};
-use super::{
-    Borders, ChartPoint, Domain, Family, Layout, Mapping, MappingInfo, Step, evaluator,
-};
+use super::{Borders, ChartPoint, Domain, Family, Layout, Mapping, MappingInfo, Step, evaluator};
 use crate::math::{Real, Vec3, unit_in_plane};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 

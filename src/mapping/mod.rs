@@ -77,7 +77,10 @@ registry! {
     Angular in angular,
     Fisheye in fisheye,
     Equisolid in equisolid,
+    Stereographic in stereographic,
     CylindricalEqualArea in cylindrical_equal_area,
+    Mercator in mercator,
+    Healpix in healpix,
 }
 
 impl MappingId {

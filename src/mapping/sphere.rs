@@ -5,7 +5,8 @@
 
 use super::chart::height_squared;
 use super::{
-    Borders, ChartPoint, Claims, Convention, Coverage, Domain, Family, Mapping, MappingInfo, Step, WeakSpot,
+    Borders, ChartPoint, Claims, Convention, Coverage, Domain, Family, Mapping, MappingInfo, Step,
+    WeakSpot,
 };
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3};
