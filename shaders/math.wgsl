@@ -85,3 +85,44 @@ fn unit_in_plane(p: vec2f) -> vec2f {
     let q = p / large;
     return q / sqrt(q.x * q.x + q.y * q.y);
 }
+
+// A point of one of two discs that share their rim, from the middle over the radius and y upwards.
+struct DiscPoint {
+    chart: u32,
+    place: vec2f,
+}
+
+// Beyond the rim it is the point of the other disc that lies as far within.
+fn over_rim(p: ChartPoint) -> DiscPoint {
+    let place = vec2f(2.0 * p.u - 1.0, 1.0 - 2.0 * p.v);
+    let radius = hypotenuse(place.x, place.y);
+    if radius <= 1.0 {
+        return DiscPoint(p.chart, place);
+    }
+    return DiscPoint(p.chart ^ 1u, vec2f(-place.x, place.y) * ((2.0 - radius) / radius));
+}
+
+// ln(1 + t) for t >= 0: the power of two nearest to 1 + t, and 2 artanh(s) of the rest. The language's own is off by 2^-21 around 1.
+fn ln_1p(t: f32) -> f32 {
+    var k = 0.0;
+    var power = 1.0;
+    while 1.0 + t > 1.4142135 * power && power < 1e30 {
+        k += 1.0;
+        power *= 2.0;
+    }
+    let s = (t - (power - 1.0)) / (t + (1.0 + power));
+    let q = s * s;
+    let series = q * (1.0 / 3.0 + q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * (1.0 / 9.0))));
+    return k * LN_2_HIGH + (k * LN_2_LOW + 2.0 * (s + s * series));
+}
+
+// e^x - 1 for |x| <= 40.
+fn exp_m1(x: f32) -> f32 {
+    let k = round(x * 1.442695);
+    let f = (x - k * LN_2_HIGH) - k * LN_2_LOW;
+    let series = 1.0 / 2.0
+        + f * (1.0 / 6.0 + f * (1.0 / 24.0 + f * (1.0 / 120.0 + f * (1.0 / 720.0 + f * (1.0 / 5040.0)))));
+    let rest = f + f * f * series;
+    let power = ldexp(1.0, i32(k));
+    return (power - 1.0) + power * rest;
+}

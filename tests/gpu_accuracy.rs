@@ -44,6 +44,11 @@ fn budget(id: MappingId) -> Errors {
         MappingId::Octahedral => (7e-7, 3e-7, 0.0),
         MappingId::OctahedralEqualArea => (1e-6, 3e-7, 0.0),
         MappingId::Angular => (1e-6, 1.2e-6, 0.0),
+        MappingId::Fisheye => (7e-7, 6e-7, 0.0),
+        MappingId::Equisolid => (7e-7, 8e-7, 0.0),
+        MappingId::Stereographic => (9e-7, 4e-7, 0.0),
+        MappingId::Mercator => (8e-7, 3e-7, 0.0),
+        MappingId::Healpix => (3.5e-7, 2.5e-7, 0.0),
         MappingId::CylindricalEqualArea => (1.5e-6, 3e-7, 1.2),
         // The wide cube family: a division and a root, or an arctangent.
         _ => (3.8e-7, 2.9e-7, 0.0),
@@ -301,6 +306,7 @@ fn a_changed_shader_is_noticed() {
         }
     }
     use MappingId::{Angular, Ccm, Cube, CylindricalEqualArea as Lambert, Eac, Latlong, Matcap};
+    use MappingId::{Equisolid, Fisheye, Mercator, Stereographic};
     use MappingId::{Octahedral, OctahedralEqualArea as Clarberg, Paraboloid, Sphere};
     for (ids, from, to) in [
         (
@@ -357,6 +363,24 @@ fn a_changed_shader_is_noticed() {
             "case 1u: { return vec3f(-ma, tc, sc); }",
         ),
         (&[Octahedral], "abs(plane.yx)", "abs(plane.xy)"),
+        (
+            &[Equisolid],
+            "sqrt(n * (n + abs(d.z)))",
+            "sqrt(n * (n + d.z))",
+        ),
+        (&[Fisheye], "select(across.x, -across.x, back)", "across.x"),
+        (
+            &[Stereographic],
+            "(n - d.z) / (3.0 * across)",
+            "across / (n - d.z)",
+        ),
+        (
+            &[Mercator],
+            "LN_2_LOW: f32 = -0.00021219444f",
+            "LN_2_LOW: f32 = -0.00021f",
+        ),
+        (&[Mercator], "1.0 / 120.0", "1.0 / 130.0"),
+        (&[Mercator], "1.0 / 5.0", "1.0 / 6.0"),
         (
             &[Clarberg],
             "max(2.0 - radius * radius, 0.0)",

@@ -15,7 +15,9 @@ use std::mem::{offset_of, size_of};
 use naga::Literal;
 use sixfold::gpu::{Program, compute, forms, kit, optics, shader, uniforms};
 use sixfold::mapping::{Domain, MappingId, ShaderForm, ccm};
-use sixfold::math::{ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, SIN_QUARTER_COEFFICIENTS};
+use sixfold::math::{
+    ATAN_COEFFICIENTS, COS_QUARTER_COEFFICIENTS, LN_2_PARTS, SIN_QUARTER_COEFFICIENTS,
+};
 use sixfold::optics::Formula;
 
 /// Every pass of the app: name and whole text. A new pass is a new line here.
@@ -185,6 +187,8 @@ fn unequal_constants(id: MappingId, pass: &str) -> Vec<String> {
         ("FRAC_PI_2".to_owned(), Literal::F32(consts::FRAC_PI_2)),
         ("FRAC_1_PI".to_owned(), Literal::F32(consts::FRAC_1_PI)),
         ("SQRT_2".to_owned(), Literal::F32(consts::SQRT_2)),
+        ("LN_2_HIGH".to_owned(), Literal::F32(LN_2_PARTS[0])),
+        ("LN_2_LOW".to_owned(), Literal::F32(LN_2_PARTS[1])),
         (
             "FRAC_1_SQRT_2".to_owned(),
             Literal::F32(consts::FRAC_1_SQRT_2),

@@ -345,6 +345,13 @@ mod tests {
         for &mapping in MappingId::ALL {
             let mut state = AppState::default();
             apply(&mut state, Action::SetMapping(mapping));
+            // A direction beyond the map's end has the nearest texel's place, from which no step is a whole one.
+            if !mapping.info().coverage.contains(state.probe.map(f64::from)) {
+                apply(
+                    &mut state,
+                    probe_at(mapping, ChartPoint::new(0, 0.4, 0.7)).unwrap(),
+                );
+            }
             let size = crate::gpu::map_size(mapping, state.texel_budget);
             let before = mapping.forward(state.probe_f64()).unwrap();
             apply(

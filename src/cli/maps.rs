@@ -5,7 +5,7 @@ use std::io::Write;
 use serde::Serialize;
 
 use super::{CliError, DONE};
-use crate::mapping::{Claims, Domain, Layout, MappingId, Runs, WeakSpot};
+use crate::mapping::{Claims, Domain, Family, Layout, MappingId, Runs, WeakSpot};
 
 /// Options of `sixfold maps`.
 #[derive(Debug, clap::Args)]
@@ -21,6 +21,7 @@ struct Entry {
     id: &'static str,
     name: &'static str,
     about: &'static str,
+    family: Family,
     charts: &'static [&'static str],
     coverage: &'static str,
     solid_angle_sr: f64,
@@ -75,6 +76,7 @@ fn entry(map: MappingId) -> Entry {
         id: info.id,
         name: info.name,
         about: info.about,
+        family: info.family,
         charts: info.charts,
         coverage: info.coverage.name(),
         solid_angle_sr: info.coverage.solid_angle_sr(),

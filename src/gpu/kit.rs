@@ -6,7 +6,7 @@ use super::optics::{self, OPTICS};
 use super::program::Program;
 use super::uniforms::MOST_WAVELENGTHS;
 use super::{Gpu, Overlays, overlay, shader, tone};
-use crate::mapping::{Coverage, MappingId, ShaderForm};
+use crate::mapping::{MappingId, ShaderForm};
 use crate::optics::material::MOST_BOUNCES;
 
 /// What the screen gets: sRGB values in a format that does not convert them again.
@@ -145,7 +145,7 @@ pub fn panel_source(id: MappingId) -> String {
 }
 
 fn show_source(id: MappingId, form: ShaderForm, pass: &str) -> String {
-    let covers_sphere = !matches!(id.info().coverage, Coverage::Hemisphere(_));
+    let covers_sphere = !id.info().coverage.has_cut();
     let mut text = format!("const MAP_COVERS_SPHERE = {covers_sphere};\n");
     text += &tone::wgsl_constants();
     text += &overlay::wgsl_constants();

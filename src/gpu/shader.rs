@@ -8,6 +8,7 @@ use std::fmt::Write;
 
 use super::forms;
 use crate::mapping::{Domain, MappingId, ShaderForm, ccm};
+use crate::math::LN_2_PARTS;
 
 /// The chart index that stands for "no direction, no chart".
 pub const NO_CHART: u32 = u32::MAX;
@@ -81,6 +82,8 @@ pub fn constants() -> String {
         ("FRAC_1_PI", consts::FRAC_1_PI),
         ("SQRT_2", consts::SQRT_2),
         ("FRAC_1_SQRT_2", consts::FRAC_1_SQRT_2),
+        ("LN_2_HIGH", LN_2_PARTS[0]),
+        ("LN_2_LOW", LN_2_PARTS[1]),
         ("SMALLEST_NORMAL", f32::MIN_POSITIVE),
         ("LARGEST_FINITE", f32::MAX),
         ("CCM_HALF_EDGE_RAD", ccm::HALF_EDGE_RAD as f32),

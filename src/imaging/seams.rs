@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use super::{MapShape, Placement, Raster, Samples, Transfer};
 use crate::mapping::Borders;
-use crate::mapping::cube_face::{Side, across};
+use crate::mapping::cube_face::Side;
 
 /// Most texels that are asked along a seam: the mean of so many differences is as good as that of all.
 pub(super) const MOST_ALONG: u32 = 256;
@@ -57,7 +57,7 @@ pub fn seams(shape: &MapShape, rasters: &[Raster]) -> Option<Seams> {
         return None;
     }
     match shape.mapping.info().borders {
-        Borders::CubeEdges => sums.cube(),
+        borders @ (Borders::CubeEdges | Borders::BasePixelEdges) => sums.edges(borders),
         Borders::DateLineAndPoles => {
             sums.date_line();
             sums.poles();
@@ -166,19 +166,19 @@ impl Sums<'_> {
         self.texels.shape.size
     }
 
-    /// The twelve edges with the eight corners at their ends.
-    fn cube(&mut self) {
+    /// The edges at which sides of charts meet, with the corners at their ends.
+    fn edges(&mut self, borders: Borders) {
         let size = self.size();
         let count = size[0];
         if count != size[1] {
             return;
         }
-        for face in 0..6 {
+        for face in 0..self.texels.shape.mapping.info().chart_count() {
             for side in Side::ALL {
-                let other = across(face, side);
-                if other.face < face {
+                let other = borders.across(face, side);
+                let Some(other) = other.filter(|other| other.face > face) else {
                     continue;
-                }
+                };
                 for along in spread(count, MOST_ALONG) {
                     let there = if other.is_reversed {
                         count - 1 - along

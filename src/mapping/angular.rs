@@ -2,7 +2,7 @@
 //!
 //! Azimuthal equidistant: centre +z, the whole rim -z.
 
-use super::{Borders, ChartPoint, Coverage, Domain, Mapping, MappingInfo, Step};
+use super::{Borders, ChartPoint, Coverage, Domain, Family, Mapping, MappingInfo, Step};
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3, unit_in_plane};
 use std::f64::consts::{FRAC_1_PI, TAU};
@@ -16,6 +16,7 @@ impl Mapping for Angular {
         name: "Angular map",
         about: "Angle from the centre as radius: the light probes' picture.",
         source: "azimuthal equidistant; Debevec's light probe",
+        family: Family::Discs,
         charts: &["disc"],
         domain: Domain::Disc,
         coverage: Coverage::SphereLessPoint([0.0, 0.0, -1.0]),

@@ -5,7 +5,10 @@ use std::fmt::Display;
 use serde::{Deserialize, Serialize};
 
 use super::convention::{Convention, Erratum};
+use super::cube_face::{self, Neighbour, Side};
 use super::evaluator::EvaluatorInfo;
+use super::family::Family;
+use super::healpix;
 use super::lanes::{self, AngleLanes, DirLanes, Lane, Line, PointLanes};
 use super::layout::Layout;
 use crate::math::{Real, Vec3};
@@ -223,6 +226,8 @@ pub struct MappingInfo {
     pub about: &'static str,
     /// Where it was published.
     pub source: &'static str,
+    /// Under which heading lists have it.
+    pub family: Family,
     /// Name of each chart, in order.
     pub charts: &'static [&'static str],
     /// Width of a chart over its height at which texels are square where the mapping is least distorted.
@@ -255,6 +260,7 @@ impl MappingInfo {
         name: "",
         about: "",
         source: "",
+        family: Family::Graticule,
         charts: &["all"],
         aspect: 1.0,
         domain: Domain::Square,
@@ -319,11 +325,24 @@ pub(super) fn height_squared<R: Real>(u: R, v: R) -> R {
     (large - R::one()) + small
 }
 
+/// A point of one of two discs that share their rim, (p, q) from the middle over the radius with q upwards: beyond the rim it is the
+/// point of the other disc that lies as far within. The back one is seen from inside too, so that left is right there.
+pub(super) fn over_rim<R: Real>(chart: u32, p: R, q: R) -> (u32, R, R) {
+    let radius = p.hypot(q);
+    if radius <= R::one() {
+        return (chart, p, q);
+    }
+    let shrink = (R::two() - radius) / radius;
+    (chart ^ 1, -p * shrink, q * shrink)
+}
+
 /// What lies across the borders of the charts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Borders {
     /// The twelve edges of a cube.
     CubeEdges,
+    /// The twenty-four edges of HEALPix's base pixels.
+    BasePixelEdges,
     /// Left and right meet at the date line, and each row of texels at a pole meets itself.
     DateLineAndPoles,
     /// Left and right meet at the date line; the texels at a pole reach over many degrees.
@@ -338,6 +357,17 @@ pub enum Borders {
     End,
 }
 
+impl Borders {
+    /// What lies across a side of a chart, where each side of a chart is one of another.
+    pub fn across(self, chart: u32, side: Side) -> Option<Neighbour> {
+        match self {
+            Self::CubeEdges => Some(cube_face::across(chart, side)),
+            Self::BasePixelEdges => Some(healpix::across(chart, side)),
+            _ => None,
+        }
+    }
+}
+
 /// Which directions have an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coverage {
@@ -345,8 +375,20 @@ pub enum Coverage {
     Sphere,
     /// Every direction but this one, whose image is the whole rim; forward picks the rim's rightmost point.
     SphereLessPoint([f64; 3]),
-    /// The directions whose product with this one is not negative; the others share their texels.
-    Hemisphere([f64; 3]),
+    /// The directions whose cosine with an axis is at least so large; the others share their texels.
+    Cap {
+        /// Unit vector.
+        axis: [f64; 3],
+        /// Cosine of the angle from the axis at which the map ends.
+        least: f64,
+    },
+    /// The directions whose cosine with an axis is at most so large, whatever its sign; the others share their texels.
+    Band {
+        /// Unit vector.
+        axis: [f64; 3],
+        /// Cosine of the angle from the axis at which the map ends, on both sides.
+        most: f64,
+    },
 }
 
 impl Coverage {
@@ -355,25 +397,36 @@ impl Coverage {
         match self {
             Self::Sphere => "sphere",
             Self::SphereLessPoint(_) => "sphere less one point",
-            Self::Hemisphere(_) => "hemisphere",
+            Self::Cap { least: 0.0, .. } => "hemisphere",
+            Self::Cap { .. } => "cap",
+            Self::Band { .. } => "band",
         }
+    }
+
+    /// Whether whole regions have no image of their own, so that a texel may be looked up by directions that are not its own.
+    pub const fn has_cut(self) -> bool {
+        matches!(self, Self::Cap { .. } | Self::Band { .. })
     }
 
     /// Solid angle covered, in sr.
     pub fn solid_angle_sr(self) -> f64 {
+        use std::f64::consts::PI;
         match self {
-            Self::Sphere | Self::SphereLessPoint(_) => 4.0 * std::f64::consts::PI,
-            Self::Hemisphere(_) => 2.0 * std::f64::consts::PI,
+            Self::Sphere | Self::SphereLessPoint(_) => 4.0 * PI,
+            Self::Cap { least, .. } => 2.0 * PI * (1.0 - least),
+            Self::Band { most, .. } => 4.0 * PI * most,
         }
     }
 
     /// True when `dir` has an image of its own.
     pub fn contains(self, dir: [f64; 3]) -> bool {
         let along = |axis: [f64; 3]| axis[0] * dir[0] + axis[1] * dir[1] + axis[2] * dir[2];
+        let length = || dir[0].hypot(dir[1]).hypot(dir[2]);
         match self {
             Self::Sphere => true,
             Self::SphereLessPoint(point) => crate::math::angle_rad(point, dir) > 0.0,
-            Self::Hemisphere(axis) => along(axis) >= 0.0,
+            Self::Cap { axis, least } => along(axis) >= least * length(),
+            Self::Band { axis, most } => along(axis).abs() <= most * length(),
         }
     }
 }

@@ -184,7 +184,7 @@ fn ray(sides: [Range; 2], angle: f64) -> Option<Range> {
 }
 
 /// Nodes along a side of a texel, of a square chart and of a disc: with 64 rows the sum over any mapping is right to 1e-12 sr.
-static TEXEL_RULES: LazyLock<[Rule; 2]> = LazyLock::new(|| [5, 12].map(Rule::new));
+static TEXEL_RULES: LazyLock<[Rule; 2]> = LazyLock::new(|| [5, 16].map(Rule::new));
 
 impl MappingId {
     /// Solid angle in sr of the texel (column, row) of a chart of `size` = [width, height] texels, as far as it lies in the domain.

@@ -8,7 +8,7 @@
 
 use super::chart::to_signed;
 use super::{
-    AngleLanes, Borders, DirLanes, LANES, Lane, Layout, Line, MappingInfo, PointLanes, Step,
+    AngleLanes, Borders, DirLanes, Family, LANES, Lane, Layout, Line, MappingInfo, PointLanes, Step,
 };
 use crate::math::{Real, Vec3, atan_turns};
 use std::f64::consts::FRAC_1_PI;
@@ -19,6 +19,7 @@ pub const FACES: &[&str] = &["+x", "-x", "+y", "-y", "+z", "-z"];
 /// What every member of the family has in common: six full squares, each edge divided alike from both sides as long as
 /// the warp is the same on every face.
 pub const FAMILY: MappingInfo = MappingInfo {
+    family: Family::Cubes,
     charts: FACES,
     borders: Borders::CubeEdges,
     layout: Layout::Cross,

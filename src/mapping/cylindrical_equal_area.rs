@@ -1,7 +1,7 @@
 //! Cylindrical equal-area (Lambert): longitude to the right, height downwards. 4 pi sr per unit of chart area.
 
 use super::{
-    Borders, ChartPoint, Claims, Mapping, MappingInfo, Step, WeakSpot, evaluator, latlong,
+    Borders, ChartPoint, Claims, Family, Mapping, MappingInfo, Step, WeakSpot, evaluator, latlong,
 };
 use crate::math::{Real, Vec3};
 use std::f64::consts::PI;
@@ -15,6 +15,7 @@ impl Mapping for CylindricalEqualArea {
         name: "Cylindrical equal-area",
         about: "The sphere's shadow on a cylinder around it: every texel the same solid angle, poles squeezed flat.",
         source: "Lambert 1772",
+        family: Family::Graticule,
         aspect: PI,
         claims: Claims {
             equal_area: true,

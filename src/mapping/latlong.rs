@@ -3,7 +3,7 @@
 //! The centre of the picture looks along +z, +x lies to the right, +y is up. Grimm and Niebruegge, equations 1 to 4.
 
 use super::{AngleLanes, Borders, DirLanes, LANES, Lane, Line, PointLanes};
-use super::{ChartPoint, Convention, Erratum, Mapping, MappingInfo, Step};
+use super::{ChartPoint, Convention, Erratum, Family, Mapping, MappingInfo, Step};
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3, atan2_turns};
 use std::f64::consts::FRAC_1_PI;
@@ -17,6 +17,7 @@ impl Mapping for Latlong {
         name: "Latlong",
         about: "Longitude and latitude as a picture: simple, but the poles are stretched over a whole row.",
         source: "equirectangular; Grimm and Niebruegge, eq. 1-4",
+        family: Family::Graticule,
         aspect: 2.0,
         conventions: &[Convention {
             id: "grimm",

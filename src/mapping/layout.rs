@@ -33,6 +33,9 @@ pub enum Layout {
     /// is without a break: -y and +y by three quarters clockwise, -z by one (FFmpeg 5.1's `eac`, found by running it).
     #[serde(rename = "3x2-turned")]
     ThreeByTwoTurned,
+    /// Twelve squares down a staircase, as the HEALPix grid lies when turned by an eighth: on the diagonal those around the equator,
+    /// right of it those of the north and below it those of the south, each beside what it meets but at the poles.
+    Staircase,
     /// A picture for each chart.
     Faces,
 }
@@ -59,7 +62,7 @@ const fn turned(column: u32, row: u32, quarters: u8) -> Cell {
 
 impl Layout {
     /// Every layout.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Single,
         Self::Pair,
         Self::PairColumn,
@@ -70,6 +73,7 @@ impl Layout {
         Self::Column,
         Self::ThreeByTwo,
         Self::ThreeByTwoTurned,
+        Self::Staircase,
         Self::Faces,
     ];
 
@@ -84,6 +88,7 @@ impl Layout {
             Self::PairColumn | Self::Column => "column",
             Self::ThreeByTwo => "3x2",
             Self::ThreeByTwoTurned => "3x2-turned",
+            Self::Staircase => "staircase",
             Self::Faces => "faces",
         }
     }
@@ -111,12 +116,13 @@ impl Layout {
             Self::Row => [6, 1],
             Self::Column => [1, 6],
             Self::ThreeByTwo | Self::ThreeByTwoTurned => [3, 2],
+            Self::Staircase => [5, 5],
         }
     }
 
     /// Cell of each chart, by chart index; none where each has its own picture.
     pub const fn cells(self) -> &'static [Cell] {
-        // In the order of the charts +x -x +y -y +z -z.
+        // Six in the order of the charts +x -x +y -y +z -z.
         match self {
             Self::Single => const { &[upright(0, 0)] },
             Self::Pair => const { &[upright(0, 0), upright(1, 0)] },
@@ -202,6 +208,24 @@ impl Layout {
                         turned(0, 1, 3),
                         upright(1, 0),
                         turned(1, 1, 1),
+                    ]
+                }
+            }
+            Self::Staircase => {
+                const {
+                    &[
+                        upright(1, 0),
+                        upright(2, 1),
+                        upright(3, 2),
+                        upright(4, 3),
+                        upright(0, 0),
+                        upright(1, 1),
+                        upright(2, 2),
+                        upright(3, 3),
+                        upright(0, 1),
+                        upright(1, 2),
+                        upright(2, 3),
+                        upright(3, 4),
                     ]
                 }
             }
@@ -313,7 +337,7 @@ mod tests {
 
     #[test]
     fn names_come_back() {
-        for (charts, layouts) in [(1, 2), (2, 3), (6, 8)] {
+        for (charts, layouts) in [(1, 2), (2, 3), (6, 8), (12, 2)] {
             let held: Vec<Layout> = Layout::ALL
                 .into_iter()
                 .filter(|l| l.holds(charts))

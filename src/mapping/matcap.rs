@@ -4,7 +4,9 @@
 //! that hemisphere only. It is Hoff's sphere map if the vector put in is the normal instead of the direction.
 
 use super::chart::height_squared;
-use super::{ChartPoint, Convention, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot};
+use super::{
+    ChartPoint, Convention, Coverage, Domain, Family, Mapping, MappingInfo, Step, WeakSpot,
+};
 use crate::math::{Real, Vec3};
 
 /// See the [module](self).
@@ -16,9 +18,13 @@ impl Mapping for Matcap {
         name: "Matcap",
         about: "x and y as they are: the cheapest map, and half the world is missing. The half behind the viewer is seen as in a mirror.",
         source: "simple sphere map; Scali, Cubemaps",
+        family: Family::Discs,
         charts: &["disc"],
         domain: Domain::Disc,
-        coverage: Coverage::Hemisphere([0.0, 0.0, -1.0]),
+        coverage: Coverage::Cap {
+            axis: [0.0, 0.0, -1.0],
+            least: 0.0,
+        },
         weak_spots: &[WeakSpot {
             dir: [0.0, 0.0, 1.0],
             great_circle: true,

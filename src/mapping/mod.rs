@@ -20,6 +20,7 @@ pub mod cube_face;
 mod device;
 pub mod evaluator;
 mod face_map;
+mod family;
 mod frame;
 mod jacobian;
 mod lane_forms;
@@ -40,6 +41,7 @@ pub use chart_integral::integrate;
 pub use convention::{Convention, Erratum, ForwardFn, InverseFn};
 pub use device::{Adapter, Device, DeviceTime, NoDevice, Shader, Work};
 pub use evaluator::{Evaluator, EvaluatorError, EvaluatorInfo, Processor, Runs};
+pub use family::Family;
 pub use frame::{CubeFrame, Founded, Frame, FrameError, Pictures, UnknownFrame};
 pub use jacobian::Jacobian;
 pub use lanes::{AngleLanes, DirLanes, LANES, Lane, Line, PointLanes};
@@ -73,7 +75,12 @@ registry! {
     Octahedral in octahedral,
     OctahedralEqualArea in octahedral_equal_area,
     Angular in angular,
+    Fisheye in fisheye,
+    Equisolid in equisolid,
+    Stereographic in stereographic,
     CylindricalEqualArea in cylindrical_equal_area,
+    Mercator in mercator,
+    Healpix in healpix,
 }
 
 impl MappingId {

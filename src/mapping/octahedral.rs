@@ -4,7 +4,7 @@
 
 use super::chart::{to_signed, to_unit};
 use super::evaluator;
-use super::{Borders, ChartPoint, Mapping, MappingInfo, Step};
+use super::{Borders, ChartPoint, Family, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
 /// See the [module](self).
@@ -16,6 +16,7 @@ impl Mapping for Octahedral {
         name: "Octahedral",
         about: "One square without a trigonometric function: the lower half is folded out into the corners.",
         source: "Engelhardt and Dachsbacher 2008",
+        family: Family::Octahedra,
         charts: &["square"],
         evaluators: || evaluator::plain_and::<Octahedral>(&[]),
         borders: Borders::FoldedSides,

@@ -4,7 +4,7 @@
 
 use super::chart::{to_signed, to_unit};
 use super::octahedral::{BELOW, Octant, fold, octant, wrap};
-use super::{Borders, ChartPoint, Claims, Mapping, MappingInfo, Step};
+use super::{Borders, ChartPoint, Claims, Family, Mapping, MappingInfo, Step};
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3};
 use std::f64::consts::{FRAC_1_PI, PI, SQRT_2};
@@ -18,6 +18,7 @@ impl Mapping for OctahedralEqualArea {
         name: "Equal-area octahedral",
         about: "The octahedral square with the same solid angle in every texel.",
         source: "Clarberg 2008; pbrt-v4",
+        family: Family::Octahedra,
         charts: &["square"],
         claims: Claims {
             equal_area: true,

@@ -3,7 +3,7 @@
 //! Chart 0 looks along +z, chart 1 along -z; both are what an observer inside sees. Exactly conformal, area ratio 4.
 
 use super::evaluator;
-use super::{Borders, ChartPoint, Claims, Domain, Layout, Mapping, MappingInfo, Step};
+use super::{Borders, ChartPoint, Claims, Domain, Family, Layout, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
 /// See the [module](self).
@@ -15,6 +15,7 @@ impl Mapping for Paraboloid {
         name: "Dual paraboloid",
         about: "Two discs, one for each half of the world: circles stay circles, only products and one quotient.",
         source: "Heidrich and Seidel 1998",
+        family: Family::Discs,
         charts: &["front", "back"],
         domain: Domain::Disc,
         layout: Layout::Pair,

@@ -5,7 +5,8 @@
 
 use super::chart::height_squared;
 use super::{
-    Borders, ChartPoint, Claims, Convention, Coverage, Domain, Mapping, MappingInfo, Step, WeakSpot,
+    Borders, ChartPoint, Claims, Convention, Coverage, Domain, Family, Mapping, MappingInfo, Step,
+    WeakSpot,
 };
 use super::{evaluator, seed_forms};
 use crate::math::{Real, Vec3};
@@ -19,6 +20,7 @@ impl Mapping for Sphere {
         name: "Sphere map",
         about: "A mirror ball seen from far away: one picture, equal area, torn apart at its rim. As in any mirror, writing is reversed.",
         source: "OpenGL sphere map; Hoff 1998",
+        family: Family::Discs,
         charts: &["ball"],
         domain: Domain::Disc,
         coverage: Coverage::SphereLessPoint([0.0, 0.0, 1.0]),

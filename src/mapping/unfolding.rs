@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::{Borders, ChartPoint, MappingId};
+use super::{Borders, ChartPoint, Layout, MappingId};
 use crate::math::Vec3;
 
 /// Half an edge of the cube whose corners lie on the unit sphere: 1/sqrt 3.
@@ -53,8 +53,12 @@ impl Unfolding {
         } else {
             map.parallels().map(|_| Solid::Cylinder)
         };
-        // The chart in the middle: the cube's +z.
-        let chart = if solid == Some(Solid::Cube) { 4 } else { 0 };
+        // The chart in the middle: the cube's +z, and one on the equator.
+        let chart = match info.layout {
+            Layout::Cross => 4,
+            Layout::Staircase => 6,
+            _ => 0,
+        };
         let at = |u: f64, v: f64| map.continued(ChartPoint::new(chart, u, v));
         let right = (at(0.75, 0.5) - at(0.25, 0.5)).normalized();
         let up = at(0.5, 0.25) - at(0.5, 0.75);

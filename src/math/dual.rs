@@ -131,6 +131,13 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
         let slope = exponent.value * self.value.pow(exponent.value - R::one());
         self.chain(self.value.pow(exponent.value), slope)
     }
+    fn ln_1p(self) -> Self {
+        self.chain(self.value.ln_1p(), R::one() / (R::one() + self.value))
+    }
+    fn exp_m1(self) -> Self {
+        let value = self.value.exp_m1();
+        self.chain(value, value + R::one())
+    }
     fn is_finite(self) -> bool {
         self.value.is_finite()
     }

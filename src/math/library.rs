@@ -56,6 +56,12 @@ impl Real for Library {
     fn pow(self, exponent: Self) -> Self {
         Self(self.0.powf(exponent.0))
     }
+    fn ln_1p(self) -> Self {
+        Self(self.0.ln_1p())
+    }
+    fn exp_m1(self) -> Self {
+        Self(self.0.exp_m1())
+    }
     fn is_finite(self) -> bool {
         self.0.is_finite()
     }

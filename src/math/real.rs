@@ -6,7 +6,7 @@
 use std::fmt::{Debug, Display};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::arctan;
+use super::{arctan, logarithm};
 
 /// A real number type in which mappings are computed.
 ///
@@ -38,6 +38,10 @@ pub trait Real:
     fn sin_cos_turns(self) -> (Self, Self);
     /// `self` to the power `exponent`; `self` is not negative and `exponent` is a constant (its derivative takes no part).
     fn pow(self, exponent: Self) -> Self;
+    /// ln(1 + self) for self >= 0, exact in all digits of a small one too.
+    fn ln_1p(self) -> Self;
+    /// e^self - 1 for |self| <= 40, exact in all digits of a small one too.
+    fn exp_m1(self) -> Self;
     /// True for neither NaN nor infinite.
     fn is_finite(self) -> bool;
 
@@ -189,6 +193,12 @@ impl Real for f32 {
     fn pow(self, exponent: Self) -> Self {
         self.powf(exponent)
     }
+    fn ln_1p(self) -> Self {
+        logarithm::ln_1p(self)
+    }
+    fn exp_m1(self) -> Self {
+        logarithm::exp_m1(self)
+    }
     fn is_finite(self) -> bool {
         f32::is_finite(self)
     }
@@ -217,6 +227,12 @@ impl Real for f64 {
     }
     fn pow(self, exponent: Self) -> Self {
         self.powf(exponent)
+    }
+    fn ln_1p(self) -> Self {
+        f64::ln_1p(self)
+    }
+    fn exp_m1(self) -> Self {
+        f64::exp_m1(self)
     }
     fn is_finite(self) -> bool {
         f64::is_finite(self)

@@ -32,6 +32,7 @@ fn maps_lists_every_mapping() {
         assert_eq!(entry["id"], id);
         for key in [
             "name",
+            "family",
             "charts",
             "coverage",
             "conventions",

@@ -63,8 +63,8 @@ pub fn solid_angles(subject: &Subject) -> Vec<Finding> {
     let off = |rows: u32| (subject.map.solid_angle_sum_sr(rows) * skew - coverage).abs();
     let fine = match subject.map {
         // Around its rim the solid angle grows without bound, and f64's u and v cannot tell how near the rim is.
-        MappingId::Matcap => Finding::new("64 rows of texels, unbounded, sr", off(64), 3e-11),
-        _ => Finding::new("64 rows of texels, sr", off(64), 1e-12),
+        MappingId::Matcap => Finding::new("64 rows of texels, unbounded, sr", off(64), 3e-13),
+        _ => Finding::new("64 rows of texels, sr", off(64), 1e-13),
     };
     // Bends cut texels anywhere, and nine in a row are few.
     vec![fine, Finding::new("9 rows of texels, sr", off(9), 1e-7)]

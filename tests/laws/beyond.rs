@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use sixfold::mapping::{ChartPoint, Domain, MappingId};
+use sixfold::mapping::{ChartPoint, Coverage, Domain, MappingId};
 use sixfold::math::inputs::Random;
 use sixfold::math::{Real, angle_rad};
 
@@ -10,7 +10,12 @@ use crate::inputs::chart_points;
 use crate::report::{Finding, Worst};
 use crate::subject::Subject;
 
-/// Whether the rim is one direction or ends what is covered, so that nothing lies beyond it.
+/// Whether the map ends all around, so that no direction beyond is found there.
+pub fn is_cut_all_around(map: MappingId) -> bool {
+    matches!(map.info().coverage, Coverage::Cap { .. })
+}
+
+/// Whether the rim is one direction or ends what is covered and the formula too, so that nothing lies beyond it.
 pub fn ends_at_its_rim(map: MappingId) -> bool {
     matches!(map, MappingId::Sphere | MappingId::Matcap)
 }
@@ -42,7 +47,8 @@ fn found_again<R: Real>(subject: &Subject) -> (f64, f64) {
         let dir = subject.continued(point);
         let given = dir.to_f64();
         length.see((given.iter().map(|c| c * c).sum::<f64>().sqrt() - 1.0).abs());
-        if subject.is_weak(given) {
+        // Beyond a cut a direction is found at the cut.
+        if subject.is_weak(given) || !subject.info().coverage.contains(given) {
             continue;
         }
         let found = subject.forward(dir).and_then(|p| subject.inverse(p));

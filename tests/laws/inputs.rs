@@ -22,9 +22,12 @@ pub fn directions<R: Real>(seed: u64, count: usize) -> impl Iterator<Item = Vec3
     even.chain(others)
 }
 
-/// A direction at an angle of 1e-4 to pi/2 from one of the six axes, small angles as often as large ones.
+/// A direction at an angle of 1e-4 to pi/2 from one of the six axes, small angles as often as large ones; one in eight on the circle at
+/// which HEALPix is bent, and as near to it.
 fn ring<R: Real>(random: &mut Random) -> Vec3<R> {
     let angle = std::f64::consts::FRAC_PI_2 * 10f64.powf(-4.2 * random.unit());
+    let bend = (2f64 / 3.0).acos() + 1e-3 * 2f64.powi(-(random.below(52) as i32));
+    let angle = if random.below(8) == 0 { bend } else { angle };
     let (sin_turn, cos_turn) = (std::f64::consts::TAU * random.unit()).sin_cos();
     let (sin, cos) = angle.sin_cos();
     let side = if random.below(2) == 0 { cos } else { -cos };

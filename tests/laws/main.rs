@@ -49,6 +49,8 @@ const WITH_SEAMS: Applies =
 const CONTINUOUS: Applies = |map| WITH_SEAMS(map) && map.info().claims.continuous;
 /// Those whose charts have something beyond their border.
 const GOES_ON: Applies = |map| !beyond::ends_at_its_rim(map);
+/// Those of which some directions beyond the border are found again.
+const IS_FOUND_BEYOND: Applies = |map| GOES_ON(map) && !beyond::is_cut_all_around(map);
 const WITH_AREA_CLAIMS: Applies = |map| map.info().claims.equal_area || map.info().claims.conformal;
 
 const LAWS: [Law; 15] = [
@@ -172,7 +174,7 @@ const LAWS: [Law; 15] = [
             (Fault::Shifted, ALL),
             (Fault::Long, ALL),
             (Fault::Jumping, ALL),
-            (Fault::Mirror, GOES_ON),
+            (Fault::Mirror, IS_FOUND_BEYOND),
             (Fault::Clamped, GOES_ON),
         ],
     },

@@ -1,6 +1,7 @@
 //! Where charts meet: the coordinate along a seam agrees from both sides, and texels across it are neighbours.
 
-use sixfold::mapping::{ChartPoint, Domain};
+use sixfold::mapping::cube_face::Side;
+use sixfold::mapping::{Borders, ChartPoint, Domain};
 use sixfold::math::inputs::Random;
 use sixfold::math::{Real, Vec3, angle_rad};
 
@@ -35,6 +36,25 @@ fn across_a_plane<R: Real>(random: &mut Random) -> [Vec3<R>; 2] {
     })
 }
 
+/// Two directions on both sides of a chart's border, where that is no plane between the axes: as near to each other as the roundings of a
+/// direction allow.
+fn across_a_side<R: Real>(subject: &Subject, random: &mut Random) -> [Vec3<R>; 2] {
+    let chart = random.below(subject.info().chart_count());
+    let side = Side::ALL[random.below(4) as usize];
+    let [u, v] = side.place(random.unit());
+    [-1.0, 1.0].map(|sign| {
+        let away = |c: f64| {
+            if c == 0.0 || c == 1.0 {
+                c + sign * R::EPSILON
+            } else {
+                c
+            }
+        };
+        let point = ChartPoint::new(chart, away(u), away(v));
+        Vec3::from_f64(subject.map.continued(point).to_f64())
+    })
+}
+
 /// The coordinate along the border on which a point lies.
 fn along(subject: &Subject, p: ChartPoint<f64>) -> f64 {
     let on_side = p.u.min(1.0 - p.u) < p.v.min(1.0 - p.v);
@@ -49,8 +69,13 @@ fn along(subject: &Subject, p: ChartPoint<f64>) -> f64 {
 fn disagreement<R: Real>(subject: &Subject, on_border: f64) -> (f64, u32, u32) {
     let mut random = Random::new(41);
     let (mut worst, mut astray, mut met) = (Worst::default(), 0, 0);
+    let has_curved_borders = subject.info().borders == Borders::BasePixelEdges;
     for _ in 0..subject.effort / 4 {
-        let [a, b] = across_a_plane::<R>(&mut random);
+        let [a, b] = if has_curved_borders && random.below(2) == 0 {
+            across_a_side::<R>(subject, &mut random)
+        } else {
+            across_a_plane::<R>(&mut random)
+        };
         let (Some(p), Some(q)) = (subject.forward(a), subject.forward(b)) else {
             astray += 1;
             continue;

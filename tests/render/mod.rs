@@ -6,7 +6,7 @@ use sixfold::gpu::{
     Body, EnvironmentSource, Frame, Gpu, ObjectFrame, Overlays, PanelFrame, Renderer, RgbaPixels,
     Shared, ToneCurve, ViewportFrame,
 };
-use sixfold::mapping::{ChartPoint, Coverage, MappingId, ShaderForm};
+use sixfold::mapping::{ChartPoint, MappingId, ShaderForm};
 use sixfold::math::{Rotation, Vec3};
 use sixfold::scene::{Camera, Object, Target};
 
@@ -139,11 +139,12 @@ pub fn texel_rad(id: MappingId, point: ChartPoint<f64>, size: [u32; 2]) -> f64 {
     })
 }
 
-/// The direction whose light the texel of `dir` holds: itself, but for mappings of a hemisphere.
+/// The direction whose light the texel of `dir` holds: itself, but for mappings with a cut.
 pub fn stored(id: MappingId, dir: Vec3<f64>) -> Vec3<f64> {
-    match id.info().coverage {
-        Coverage::Hemisphere(_) => id.inverse(id.forward(dir).unwrap()).unwrap(),
-        _ => dir,
+    if id.info().coverage.has_cut() {
+        id.inverse(id.forward(dir).unwrap()).unwrap()
+    } else {
+        dir
     }
 }
 

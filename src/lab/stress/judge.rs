@@ -7,7 +7,7 @@ use super::{Measure, Measures, Row, Standing};
 use crate::lab::accuracy::{direction_of, texel_rad};
 use crate::mapping::evaluator::SINGLE;
 use crate::mapping::{
-    ChartPoint, Coverage, DirList, Domain, Evaluator, EvaluatorError, EvaluatorInfo, MappingId,
+    Borders, ChartPoint, DirList, Domain, Evaluator, EvaluatorError, EvaluatorInfo, MappingId,
     NOWHERE, PointList,
 };
 use crate::math::{Isa, Vec3, angle_rad};
@@ -41,13 +41,11 @@ impl Subject {
         let coverage = map.info().coverage;
         let is_direction = |dir: &[f32; 3]| dir.iter().all(|c| c.is_finite()) && *dir != [0.0; 3];
         // A direction without an image of its own is asked for nothing; a walk stays whole, so that its steps can be counted.
-        let is_covered = |dir: &&[f32; 3]| match coverage {
-            Coverage::Hemisphere(_) => {
-                family == Family::Walks
-                    || !is_direction(dir)
-                    || coverage.contains(dir.map(f64::from))
-            }
-            _ => true,
+        let is_covered = |dir: &&[f32; 3]| {
+            !coverage.has_cut()
+                || family == Family::Walks
+                || !is_direction(dir)
+                || coverage.contains(dir.map(f64::from))
         };
         let dirs: DirList = inputs.iter().filter(is_covered).copied().collect();
         let view = dirs.view();
@@ -89,7 +87,11 @@ impl Subject {
             for start in (0..dirs.len()).step_by(walk_length(self.effort)) {
                 let range = start..(start + walk_length(self.effort)).min(dirs.len());
                 let walk: Vec<_> = range.map(|k| points.view().at(k).to_f64()).collect();
-                seen.walk(self.map, start, &walk);
+                let is_covered = |k: usize| {
+                    let coverage = self.map.info().coverage;
+                    coverage.contains(dirs.at(start + k).to_f64())
+                };
+                seen.walk(self.map, start, &walk, is_covered);
             }
         }
         Ok(self.judged(asked, &seen))
@@ -210,7 +212,14 @@ impl Seen {
     }
 
     /// Takes in a walk whose first input is the one of the given number: for each step the points below, on and above a seam.
-    fn walk(&mut self, map: MappingId, start: usize, walk: &[ChartPoint<f64>]) {
+    /// Between inputs that are not covered nothing is promised.
+    fn walk(
+        &mut self,
+        map: MappingId,
+        start: usize,
+        walk: &[ChartPoint<f64>],
+        is_covered: impl Fn(usize) -> bool,
+    ) {
         let info = map.info();
         // A rim that is one direction, or that bounds the half that is covered, has no other side.
         let has_seams = info.chart_count() > 1 || info.domain == Domain::Square;
@@ -219,11 +228,14 @@ impl Seen {
         let on_seam = |step: usize| start + 3 * step + 1;
         if has_seams {
             for (k, step) in steps.iter().enumerate() {
+                if !(is_covered(3 * k) && is_covered(3 * k + 2)) {
+                    continue;
+                }
                 let jump = seam_jump(map, step[0], step[2]) * TEXELS;
                 self.largest(Measure::SeamJump, on_seam(k), jump);
             }
         }
-        if info.chart_count() == 6 {
+        if info.borders == Borders::CubeEdges {
             let on: Vec<_> = steps.iter().map(|step| step[1]).collect();
             let (fall, step) = largest_fall(&on);
             self.largest(Measure::Fall, on_seam(step), fall);

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::budgets::allowed;
 use super::verdict::{Exact, Found};
 use crate::imaging::{Progress, Stage};
-use crate::mapping::{Coverage, Device, DirList, EvaluatorInfo, MappingId, PointList};
+use crate::mapping::{Device, DirList, EvaluatorInfo, MappingId, PointList};
 use crate::math::inputs::Random;
 use crate::math::{Isa, Vec3};
 
@@ -283,8 +283,8 @@ pub fn look(view: &View, device: &dyn Device, progress: &Progress) -> Option<Pic
     };
     let allowed_rad = allowed(view.map, view.evaluator).max_forward_rad;
     let coverage = view.map.info().coverage;
-    // Of the other half a mapping promises nothing at all.
-    let is_half = matches!(coverage, Coverage::Hemisphere(_));
+    // Beyond its cut a mapping promises nothing at all.
+    let has_cut = coverage.has_cut();
     let done = AtomicUsize::new(0);
     let row = |row: usize| -> Option<Vec<Pixel>> {
         if progress.is_cancelled() {
@@ -306,7 +306,7 @@ pub fn look(view: &View, device: &dyn Device, progress: &Progress) -> Option<Pic
             let error_rad = found.forward_rad.unwrap_or(0.0);
             let is_covered = coverage.contains(dir.to_f64());
             let verdict = match found {
-                _ if is_half && !is_covered => Verdict::Uncovered,
+                _ if has_cut && !is_covered => Verdict::Uncovered,
                 Found { is_hole: true, .. } => Verdict::Hole,
                 Found {
                     is_not_finite: true,

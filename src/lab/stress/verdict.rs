@@ -19,20 +19,28 @@ impl Exact {
         let point = map.forward(Vec3::<f64>::from_f64(dir))?;
         Some(Self {
             chart: point.chart,
-            is_tie: is_tie(map, dir),
+            is_tie: is_tie(map, dir, point),
         })
     }
 }
 
 /// Whether charts meet at a direction exactly.
-fn is_tie(map: MappingId, [x, y, z]: [f64; 3]) -> bool {
-    let [x, y, z] = [x.abs(), y.abs(), z.abs()];
+///
+/// On a border that is no plane it is the evaluator's error that chooses, which is measured by itself: there all that is near counts.
+fn is_tie(map: MappingId, dir: [f64; 3], point: ChartPoint<f64>) -> bool {
+    /// As a part of a chart's side.
+    const NEAR: f64 = 1e-3;
+    let [x, y, z] = dir.map(f64::abs);
     match map.info().borders {
         Borders::CubeEdges => {
             let largest = x.max(y).max(z);
             [x, y, z].iter().filter(|c| **c == largest).count() > 1
         }
         Borders::TwoRims => z == 0.0,
+        Borders::BasePixelEdges => {
+            let to_side = |c: f64| c.min(1.0 - c);
+            x == 0.0 || z == 0.0 || to_side(point.u).min(to_side(point.v)) < NEAR
+        }
         _ => false,
     }
 }
