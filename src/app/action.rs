@@ -14,7 +14,7 @@ use super::figures::Figure;
 use super::probe;
 use super::state::{
     AppState, CurvesState, EyeRay, FormState, InspectorState, LaboratoryState, LossState, Overlays,
-    PanelState, StabilityState, StoryState, unit,
+    PanelState, RankingState, StabilityState, StoryState, unit,
 };
 
 /// One change of the state.
@@ -58,6 +58,10 @@ pub enum Action {
     FaceDirection([f32; 3]),
     /// Show or hide the laboratory, or look at something else in it.
     SetLaboratory(Box<LaboratoryState>),
+    /// Show or hide the ranking, or ask it something else.
+    SetRanking(Box<RankingState>),
+    /// Look a mapping up and show its panel, beside the others.
+    OpenMapping(MappingId),
     /// Compute a mapping, which is then looked up, by the evaluator of that name.
     UseEvaluator(MappingId, String),
     /// Turn the camera by these angles in radians.
@@ -123,6 +127,7 @@ impl Action {
             Self::SetLoss(_) => Some(("loss", None)),
             Self::SetStability(_) => Some(("stability", None)),
             Self::SetLaboratory(_) => Some(("laboratory", None)),
+            Self::SetRanking(_) => Some(("ranking", None)),
             Self::SetPanelView(view) => Some(("panel", Some(view.mapping))),
             _ => None,
         }
@@ -195,6 +200,15 @@ pub fn apply(state: &mut AppState, action: Action) {
         Action::SetLaboratory(laboratory) => {
             set_open(state, Pane::Laboratory, laboratory.open);
             state.laboratory = laboratory.sanitized();
+        }
+        Action::SetRanking(ranking) => {
+            set_open(state, Pane::Ranking, ranking.open);
+            state.ranking = ranking.sanitized();
+        }
+        Action::OpenMapping(mapping) => {
+            set_mapping(state, mapping);
+            set_open(state, Pane::Map(mapping), true);
+            state.show_alone(None);
         }
         Action::UseEvaluator(mapping, id) => {
             match mapping.evaluator(&id).and_then(EvaluatorInfo::form) {

@@ -25,16 +25,19 @@ pub enum Pane {
     Stability,
     /// Run time against error.
     Laboratory,
+    /// All mappings in the order of a criterion.
+    Ranking,
 }
 
 impl Pane {
     /// The panes that are read more than looked at: the window's menu lists them, and they need height.
-    pub const READ: [Self; 5] = [
+    pub const READ: [Self; 6] = [
         Self::Curves,
         Self::Story,
         Self::Loss,
         Self::Laboratory,
         Self::Stability,
+        Self::Ranking,
     ];
 
     /// Its title.
@@ -47,6 +50,7 @@ impl Pane {
             Self::Loss => "Loss laboratory",
             Self::Stability => "Stability",
             Self::Laboratory => "Run time and error",
+            Self::Ranking => "Which mapping is best?",
         }
     }
 }

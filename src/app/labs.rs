@@ -6,6 +6,7 @@ use super::distortion::HeatMaps;
 use super::laboratory::BenchLab;
 use super::loss::LossLab;
 use super::model::JobLine;
+use super::ranking::RankingLab;
 use super::stability::StabilityLab;
 
 /// What the window asks of every laboratory, whatever it measures.
@@ -29,19 +30,28 @@ pub struct Labs {
     pub bench: BenchLab,
     /// Heat maps of distortion.
     pub heat: HeatMaps,
+    /// How every mapping distorts.
+    pub ranking: RankingLab,
 }
 
 impl Labs {
-    fn all(&self) -> [&dyn Lab; 4] {
-        [&self.loss, &self.bench, &self.stability, &self.heat]
+    fn all(&self) -> [&dyn Lab; 5] {
+        [
+            &self.loss,
+            &self.bench,
+            &self.stability,
+            &self.heat,
+            &self.ranking,
+        ]
     }
 
-    fn all_mut(&mut self) -> [&mut dyn Lab; 4] {
+    fn all_mut(&mut self) -> [&mut dyn Lab; 5] {
         [
             &mut self.loss,
             &mut self.bench,
             &mut self.stability,
             &mut self.heat,
+            &mut self.ranking,
         ]
     }
 

@@ -8,7 +8,7 @@ use super::action::Action;
 use super::arrangement::{Arrangement, Pane};
 use super::model::Model;
 use super::state::AppState;
-use super::{curves, laboratory, loss_panel, map_panel, stability_panel, story, viewport};
+use super::{curves, laboratory, loss_panel, map_panel, ranking, stability_panel, story, viewport};
 
 /// The first arrangement: the viewport above a grid of the open panels.
 pub fn first_tree(state: &AppState) -> Tree<Pane> {
@@ -117,6 +117,7 @@ fn pane_ui(ui: &mut egui::Ui, model: &mut Model<'_>, pane: Pane) {
         Pane::Loss => loss_panel::loss_ui(ui, model),
         Pane::Stability => stability_panel::stability_ui(ui, model),
         Pane::Laboratory => laboratory::laboratory_ui(ui, model),
+        Pane::Ranking => ranking::ranking_ui(ui, model),
     }
 }
 

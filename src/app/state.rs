@@ -4,6 +4,7 @@ mod form;
 mod laboratory;
 mod loss;
 mod optics;
+mod ranking;
 mod stability;
 mod views;
 
@@ -28,6 +29,7 @@ pub use form::FormState;
 pub use laboratory::{BUDGET_TEXELS, Column, LaboratoryState};
 pub use loss::{LOSS_ROWS, LossState, MOST_MAGNIFIED};
 pub use optics::{CurvesState, StoryKind, StoryState};
+pub use ranking::{MOST_COMPARED, RankingColumn, RankingPlot, RankingState};
 pub use stability::{LENGTHS, StabilityState};
 pub use views::{InspectorState, Overlays, PanelState, Precision, ZOOM_RANGE};
 
@@ -97,6 +99,8 @@ pub struct AppState {
     pub stability: StabilityState,
     /// Run time against error, and which evaluators are used; scenes before form 5 know none.
     pub laboratory: LaboratoryState,
+    /// All mappings in an order.
+    pub ranking: RankingState,
     /// The controls at the left are shown.
     pub controls_open: bool,
     /// What the inspector shows.
@@ -197,6 +201,7 @@ impl Default for AppState {
             loss: LossState::default(),
             stability: StabilityState::default(),
             laboratory: LaboratoryState::default(),
+            ranking: RankingState::default(),
             controls_open: true,
             inspector: InspectorState::default(),
         }
@@ -264,6 +269,7 @@ impl AppState {
         self.loss = self.loss.sanitized();
         self.stability = self.stability.sanitized();
         self.laboratory = self.laboratory.sanitized();
+        self.ranking = self.ranking.sanitized();
         self.probe = unit(self.probe);
         self.eye_ray = self.eye_ray.filter(|eye| {
             let ray = eye.ray();
@@ -321,6 +327,7 @@ impl AppState {
             Pane::Loss => self.loss.open,
             Pane::Stability => self.stability.open,
             Pane::Laboratory => self.laboratory.open,
+            Pane::Ranking => self.ranking.open,
             Pane::Map(mapping) => self.panel(mapping).open,
         }
     }
@@ -334,6 +341,7 @@ impl AppState {
             Pane::Loss => Some(&mut self.loss.open),
             Pane::Stability => Some(&mut self.stability.open),
             Pane::Laboratory => Some(&mut self.laboratory.open),
+            Pane::Ranking => Some(&mut self.ranking.open),
             Pane::Map(mapping) => Some(&mut self.panel_mut(mapping)?.open),
         }
     }
