@@ -14,7 +14,8 @@ use super::figures::Figure;
 use super::probe;
 use super::state::{
     AppState, BudgetState, CurvesState, EyeRay, FoldState, FormState, InspectorState,
-    LaboratoryState, LossState, Overlays, PanelState, StabilityState, StoryState, unit,
+    LaboratoryState, LossState, Overlays, PanelState, RankingState, StabilityState, StoryState,
+    unit,
 };
 
 /// One change of the state.
@@ -64,6 +65,10 @@ pub enum Action {
     SetFold(FoldState),
     /// Another eye before the folded map.
     SetFoldCamera(Camera),
+    /// Show or hide the ranking, or ask it something else.
+    SetRanking(Box<RankingState>),
+    /// Look a mapping up and show its panel, beside the others.
+    OpenMapping(MappingId),
     /// Compute a mapping, which is then looked up, by the evaluator of that name.
     UseEvaluator(MappingId, String),
     /// Turn the camera by these angles in radians.
@@ -131,6 +136,7 @@ impl Action {
             Self::SetBudget(_) => Some(("budget", None)),
             Self::SetLaboratory(_) => Some(("laboratory", None)),
             Self::SetFold(_) | Self::SetFoldCamera(_) => Some(("fold", None)),
+            Self::SetRanking(_) => Some(("ranking", None)),
             Self::SetPanelView(view) => Some(("panel", Some(view.mapping))),
             _ => None,
         }
@@ -213,6 +219,15 @@ pub fn apply(state: &mut AppState, action: Action) {
             state.fold = fold.sanitized();
         }
         Action::SetFoldCamera(camera) => state.fold.camera = camera.sanitized(),
+        Action::SetRanking(ranking) => {
+            set_open(state, Pane::Ranking, ranking.open);
+            state.ranking = ranking.sanitized();
+        }
+        Action::OpenMapping(mapping) => {
+            set_mapping(state, mapping);
+            set_open(state, Pane::Map(mapping), true);
+            state.show_alone(None);
+        }
         Action::UseEvaluator(mapping, id) => {
             match mapping.evaluator(&id).and_then(EvaluatorInfo::form) {
                 // The viewport draws by a shader; what the processor computes stays as it is.

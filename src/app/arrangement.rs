@@ -29,11 +29,13 @@ pub enum Pane {
     Laboratory,
     /// The map between the flat picture and the sphere.
     Fold,
+    /// All mappings in the order of a criterion.
+    Ranking,
 }
 
 impl Pane {
     /// The panes that are read more than looked at: the window's menu lists them, and they need height.
-    pub const READ: [Self; 7] = [
+    pub const READ: [Self; 8] = [
         Self::Curves,
         Self::Story,
         Self::Loss,
@@ -41,6 +43,7 @@ impl Pane {
         Self::Stability,
         Self::Fold,
         Self::Budget,
+        Self::Ranking,
     ];
 
     /// Its title.
@@ -55,6 +58,7 @@ impl Pane {
             Self::Budget => "Equal texel budget",
             Self::Laboratory => "Run time and error",
             Self::Fold => "Fold and unfold",
+            Self::Ranking => "Which mapping is best?",
         }
     }
 }

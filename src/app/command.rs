@@ -48,6 +48,8 @@ pub enum Command {
     MeasureStability,
     /// Measure run time and error of the evaluators that the laboratory shows, in a job.
     MeasureEvaluators,
+    /// Measure on what of the ranking is missing, after it was cancelled.
+    MeasureRanking,
     /// Write what was measured into a folder, in a job.
     SaveBench {
         /// The folder.

@@ -217,6 +217,7 @@ impl Explorer {
         self.picture_errors(&ctx);
         self.paint_heat(&ctx);
         self.light_fold(&ctx);
+        self.rank(&ctx);
         self.measure_pace(&ctx);
         // What was just changed is seen in the next frame; a still window asks for none.
         let draws_on = (self.pending && !self.waits) || self.laid_out != laid_out;
@@ -399,6 +400,7 @@ impl Explorer {
             Command::Cancel(id) => self.cancel(id),
             Command::MeasureEvaluators => self.measure_evaluators(ctx),
             Command::SaveBench { folder, force } => self.save_bench(ctx, folder, force),
+            Command::MeasureRanking => self.labs.ranking.try_again(),
             Command::MeasureLoss => self.labs.loss.try_again(),
             Command::MeasureStability => self.measure_stability(ctx),
             Command::Dismiss(index) => {

@@ -13,7 +13,8 @@ use egui::Context;
 
 pub use panel::laboratory_ui;
 pub use picture::{ErrorPicture, ShownErrors, Wanted};
-pub use words::{budget_text, readout, used_text};
+pub use plot::{free_place, look, paint_marker};
+pub use words::{budget_text, measured_text, readout, used_text};
 
 use super::job::{Job, Outcome};
 use super::labs::Lab;
@@ -181,6 +182,18 @@ impl<'a> Used<'a> {
             by_budget: false,
         })
     }
+}
+
+/// A mapping's cheapest lookup on the processor within the error budget, whether or not that chooses what is used: costs of several mappings
+/// are compared at the same error.
+pub fn cheapest_lookup<'a>(
+    state: &AppState,
+    rows: &'a [Row],
+    map: MappingId,
+) -> Option<Choice<'a>> {
+    let forward = lookups(rows, map, |device| device == CPU);
+    let allowed = state.laboratory.budget_texels;
+    cheapest(&forward, chart_rows(state, map), allowed)
 }
 
 /// The form in which the viewport runs the mapping's shader: the cheapest on the adapter within the budget while that is switched on

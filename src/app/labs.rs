@@ -8,6 +8,7 @@ use super::fold::FoldLab;
 use super::laboratory::BenchLab;
 use super::loss::LossLab;
 use super::model::JobLine;
+use super::ranking::RankingLab;
 use super::stability::StabilityLab;
 
 /// What the window asks of every laboratory, whatever it measures.
@@ -39,10 +40,12 @@ pub struct Labs {
     pub fold: FoldLab,
     /// Two mappings with as many texels.
     pub budget: BudgetLab,
+    /// How every mapping distorts.
+    pub ranking: RankingLab,
 }
 
 impl Labs {
-    fn all(&self) -> [&dyn Lab; 6] {
+    fn all(&self) -> [&dyn Lab; 7] {
         [
             &self.loss,
             &self.bench,
@@ -50,10 +53,11 @@ impl Labs {
             &self.heat,
             &self.fold,
             &self.budget,
+            &self.ranking,
         ]
     }
 
-    fn all_mut(&mut self) -> [&mut dyn Lab; 6] {
+    fn all_mut(&mut self) -> [&mut dyn Lab; 7] {
         [
             &mut self.loss,
             &mut self.bench,
@@ -61,6 +65,7 @@ impl Labs {
             &mut self.heat,
             &mut self.fold,
             &mut self.budget,
+            &mut self.ranking,
         ]
     }
 

@@ -47,6 +47,7 @@ pub mod panes;
 pub mod picture;
 mod plots;
 pub mod probe;
+pub mod ranking;
 mod reading;
 mod reading_dialog;
 mod sides;

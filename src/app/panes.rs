@@ -9,7 +9,8 @@ use super::arrangement::{Arrangement, Pane};
 use super::model::Model;
 use super::state::AppState;
 use super::{
-    budget_panel, curves, fold, laboratory, loss_panel, map_panel, stability_panel, story, viewport,
+    budget_panel, curves, fold, laboratory, loss_panel, map_panel, ranking, stability_panel, story,
+    viewport,
 };
 
 /// The first arrangement: the viewport above a grid of the open panels.
@@ -121,6 +122,7 @@ fn pane_ui(ui: &mut egui::Ui, model: &mut Model<'_>, pane: Pane) {
         Pane::Budget => budget_panel::budget_ui(ui, model),
         Pane::Laboratory => laboratory::laboratory_ui(ui, model),
         Pane::Fold => fold::fold_ui(ui, model),
+        Pane::Ranking => ranking::ranking_ui(ui, model),
     }
 }
 

@@ -6,6 +6,7 @@ mod form;
 mod laboratory;
 mod loss;
 mod optics;
+mod ranking;
 mod stability;
 mod views;
 
@@ -32,6 +33,7 @@ pub use form::FormState;
 pub use laboratory::{BUDGET_TEXELS, Column, LaboratoryState};
 pub use loss::{LOSS_ROWS, LossState, MOST_MAGNIFIED};
 pub use optics::{CurvesState, StoryKind, StoryState};
+pub use ranking::{MOST_COMPARED, RankingColumn, RankingPlot, RankingState};
 pub use stability::{LENGTHS, StabilityState};
 pub use views::{InspectorState, Overlays, PanelState, Precision, ZOOM_RANGE};
 
@@ -105,6 +107,8 @@ pub struct AppState {
     pub laboratory: LaboratoryState,
     /// The map that is folded.
     pub fold: FoldState,
+    /// All mappings in an order.
+    pub ranking: RankingState,
     /// The controls at the left are shown.
     pub controls_open: bool,
     /// What the inspector shows.
@@ -207,6 +211,7 @@ impl Default for AppState {
             budget: BudgetState::default(),
             laboratory: LaboratoryState::default(),
             fold: FoldState::default(),
+            ranking: RankingState::default(),
             controls_open: true,
             inspector: InspectorState::default(),
         }
@@ -276,6 +281,7 @@ impl AppState {
         self.stability = self.stability.sanitized();
         self.budget = self.budget.sanitized();
         self.laboratory = self.laboratory.sanitized();
+        self.ranking = self.ranking.sanitized();
         self.probe = unit(self.probe);
         self.eye_ray = self.eye_ray.filter(|eye| {
             let ray = eye.ray();
@@ -335,6 +341,7 @@ impl AppState {
             Pane::Budget => self.budget.open,
             Pane::Laboratory => self.laboratory.open,
             Pane::Fold => self.fold.open,
+            Pane::Ranking => self.ranking.open,
             Pane::Map(mapping) => self.panel(mapping).open,
         }
     }
@@ -350,6 +357,7 @@ impl AppState {
             Pane::Budget => Some(&mut self.budget.open),
             Pane::Laboratory => Some(&mut self.laboratory.open),
             Pane::Fold => Some(&mut self.fold.open),
+            Pane::Ranking => Some(&mut self.ranking.open),
             Pane::Map(mapping) => Some(&mut self.panel_mut(mapping)?.open),
         }
     }

@@ -17,6 +17,7 @@ pub mod front;
 pub mod inputs;
 pub mod machine;
 pub mod metrics;
+pub mod ranking;
 pub mod report;
 pub mod run;
 pub mod scatter;

@@ -111,6 +111,11 @@ impl LogAxis {
     }
 }
 
+/// Nanoseconds and radians of each.
+pub fn costs(rows: &[&Row]) -> Vec<[f64; 2]> {
+    rows.iter().map(|row| [row.ns, row.max_error_rad]).collect()
+}
+
 fn field(
     drawing: &mut Drawing,
     corner: [f64; 2],
@@ -176,7 +181,7 @@ fn field(
     // Of the processor, then of the adapter.
     let fronts = [false, true].map(front);
     for front in &fronts {
-        let steps: Vec<[f64; 2]> = front_steps(front)
+        let steps: Vec<[f64; 2]> = front_steps(&costs(front))
             .into_iter()
             .map(|[ns, rad]| place(ns, rad))
             .collect();
@@ -198,16 +203,9 @@ fn field(
     }
 }
 
-/// The line through a front, the fastest first, as (nanoseconds, radians). It is a stair: between two of the front nothing is nearer than the
-/// faster one.
-pub fn front_steps(front: &[&Row]) -> Vec<[f64; 2]> {
-    let corner = |pair: &[&Row]| {
-        let (a, b) = (pair[0], pair[1]);
-        [
-            [a.ns, a.max_error_rad],
-            [b.ns, a.max_error_rad],
-            [b.ns, b.max_error_rad],
-        ]
-    };
+/// The line through a front, in the order of its points. It is a stair: between two of the front nothing is nearer in the second than the
+/// first of both.
+pub fn front_steps(front: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let corner = |pair: &[[f64; 2]]| [pair[0], [pair[1][0], pair[0][1]], pair[1]];
     front.windows(2).flat_map(corner).collect()
 }

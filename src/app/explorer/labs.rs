@@ -145,6 +145,24 @@ impl Explorer {
         }
     }
 
+    /// Measures how every mapping distorts while the ranking is seen.
+    pub(super) fn rank(&mut self, ctx: &Context) {
+        let is_seen = self.seen.contains(&Pane::Ranking);
+        if self.complete {
+            if is_seen {
+                self.labs.ranking.complete();
+            }
+            return;
+        }
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        if let Err(why) = self.labs.ranking.follow(is_seen, &mut jobs) {
+            self.fail(why);
+        }
+    }
+
     /// Asks the evaluators of the selected mapping where they break.
     pub(super) fn measure_stability(&mut self, ctx: &Context) {
         let mut jobs = Jobs {

@@ -9,7 +9,7 @@ use crate::app::model::Model;
 use crate::app::plots::still_plot;
 use crate::app::theme;
 use crate::lab::bench::{CPU, Row};
-use crate::lab::scatter::{LogAxis, front_steps};
+use crate::lab::scatter::{LogAxis, costs, front_steps};
 use crate::mapping::MappingId;
 
 /// A measurement that is shown, and whether it is on the front of those.
@@ -67,7 +67,7 @@ fn names_ui(ui: &mut Ui, model: &Model<'_>, maps: &[MappingId]) {
 }
 
 /// A marker as the plot draws it.
-fn paint_marker(painter: &Painter, at: Pos2, shape: MarkerShape, color: Color32) {
+pub fn paint_marker(painter: &Painter, at: Pos2, shape: MarkerShape, color: Color32) {
     let r = RADIUS[0];
     let corners = |corners: &[[f32; 2]]| {
         let points = corners.iter().map(|[x, y]| at + r * vec2(*x, *y));
@@ -166,7 +166,7 @@ fn paint_front(painter: &Painter, map: &str, placed: &[Shown<'_>], transform: &P
         .filter(|(row, is_on)| *is_on && row.mapping == map);
     let mut front: Vec<&Row> = front.map(|(row, _)| *row).collect();
     front.sort_by(|a, b| a.ns.total_cmp(&b.ns));
-    let corners = front_steps(&front).into_iter();
+    let corners = front_steps(&costs(&front)).into_iter();
     let corners = corners.map(|at| {
         let [x, y] = at.map(f64::log10);
         transform.position_from_point(&PlotPoint::new(x, y))
@@ -290,7 +290,7 @@ fn paint_names(painter: &Painter, placed: &[Shown<'_>], transform: &PlotTransfor
 }
 
 /// A place for a name of that size beside a point: at its right first.
-fn free_place(at: Pos2, size: Vec2, frame: Rect, taken: &[Rect]) -> Option<Rect> {
+pub fn free_place(at: Pos2, size: Vec2, frame: Rect, taken: &[Rect]) -> Option<Rect> {
     let gap = RADIUS[0] + 2.0;
     let places = [
         (Align2::LEFT_CENTER, vec2(gap, 0.0)),

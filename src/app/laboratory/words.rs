@@ -70,7 +70,7 @@ pub fn row_text(row: &Row, measured: &[Row], rows: u32) -> String {
 }
 
 /// "2.10 ns, 0.00400 texel".
-fn measured_text(choice: &Choice<'_>) -> String {
+pub fn measured_text(choice: &Choice<'_>) -> String {
     let error = if choice.error_texels.is_finite() {
         format!("{} texel", significant(choice.error_texels))
     } else {

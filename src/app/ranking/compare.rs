@@ -1,0 +1,169 @@
+//! The chosen mappings over all criteria: a line for each, from the best of all mappings to the worst with a bound, with numbers.
+
+use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
+use egui_plot::MarkerShape;
+
+use super::axis::Axis;
+use super::entry::{Entry, NO_COST, NONE, TO_COME, value_text};
+use crate::app::laboratory::paint_marker;
+use crate::app::model::Model;
+use crate::app::numbers::significant;
+use crate::app::theme;
+use crate::lab::ranking::Criterion;
+
+/// Marks of the chosen, told apart by shape as well as by [`theme::SERIES`].
+const SHAPES: [MarkerShape; 4] = [
+    MarkerShape::Circle,
+    MarkerShape::Diamond,
+    MarkerShape::Square,
+    MarkerShape::Up,
+];
+/// Widths of a criterion's name, and of a number.
+const NAME: f32 = 84.0;
+const NUMBER: f32 = 76.0;
+/// From this width on both ends of a line have their numbers.
+const WITH_ENDS: f32 = 560.0;
+/// Least length of a line, and largest distance of two.
+const LEAST_LINE: f32 = 90.0;
+const MOST_HEIGHT: f32 = 30.0;
+const LETTER: f32 = 11.5;
+const QUIET: Color32 = Color32::from_gray(150);
+
+/// The plot, `size` large.
+pub fn compare_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>], size: Vec2) {
+    let of = |map| entries.iter().find(|entry| entry.map == map);
+    let chosen: Vec<&Entry<'_>> = model
+        .state
+        .ranking
+        .compared
+        .iter()
+        .filter_map(|m| of(*m))
+        .collect();
+    if chosen.is_empty() {
+        ui.label("Tick up to four mappings in the table to compare them.");
+        return;
+    }
+    legend_ui(ui, &chosen);
+    let (rect, _) = ui.allocate_exact_size(vec2(size.x, size.y - 24.0), Sense::hover());
+    let lines = Criterion::ALL.len() as f32 + 2.0;
+    let height = (rect.height() / lines).clamp(LETTER + 4.0, MOST_HEIGHT);
+    let numbers = NUMBER * chosen.len() as f32;
+    let left = rect.left() + NAME;
+    let right = (rect.right() - numbers - 6.0).max(left + LEAST_LINE);
+    let ends = if rect.width() >= WITH_ENDS { 48.0 } else { 8.0 };
+    let line = Rect::from_x_y_ranges(left + ends..=right - ends, rect.y_range());
+    let painter = ui.painter().clone();
+    let words = |x: f32, y: f32, anchor: Align2, text: &str, color: Color32| {
+        painter.text(
+            pos2(x, y),
+            anchor,
+            text,
+            FontId::proportional(LETTER),
+            color,
+        );
+    };
+    let head = rect.top() + 0.5 * height;
+    words(line.left(), head, Align2::CENTER_CENTER, "best", QUIET);
+    words(line.right(), head, Align2::RIGHT_CENTER, "worst", QUIET);
+    for (k, _) in chosen.iter().enumerate() {
+        let at = pos2(right + NUMBER * (k as f32 + 1.0) - 8.0, head);
+        paint_marker(&painter, at, SHAPES[k % SHAPES.len()], theme::SERIES[k]);
+    }
+    for (row, criterion) in Criterion::ALL.into_iter().enumerate() {
+        let y = rect.top() + (row as f32 + 1.5) * height;
+        let reach = Rect::from_x_y_ranges(rect.x_range(), y - 0.5 * height..=y + 0.5 * height);
+        let id = ui.scope_id().with(("compare", row));
+        let response = ui.interact(reach, id, Sense::hover());
+        let axis = Axis::over(criterion, entries);
+        let told: Vec<String> = chosen
+            .iter()
+            .map(|entry| number(entry, criterion))
+            .collect();
+        let label = format!(
+            "Compared by {}: {}",
+            criterion.name(),
+            whole_text(&chosen, criterion)
+        );
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &label));
+        words(
+            rect.left(),
+            y,
+            Align2::LEFT_CENTER,
+            criterion.name(),
+            Color32::from_gray(225),
+        );
+        painter.hline(line.x_range(), y, Stroke::new(1.0, Color32::from_gray(70)));
+        let mut hint = criterion.about().to_owned();
+        if let Some(axis) = axis {
+            let end = |value: f64| value_text(criterion, value);
+            let [best, worst] = axis.ends.map(end);
+            hint += &format!("\nBest of all {best}, worst with a bound {worst}.");
+            if ends > 20.0 {
+                words(line.left() - 8.0, y, Align2::RIGHT_CENTER, &best, QUIET);
+                words(line.right() + 8.0, y, Align2::LEFT_CENTER, &worst, QUIET);
+            }
+            if let Some(border) = axis.border() {
+                let x = line.left() + border * line.width();
+                painter.vline(x, y - 4.0..=y + 4.0, Stroke::new(1.0, QUIET));
+            }
+            for (k, entry) in chosen.iter().enumerate().rev() {
+                let Some(value) = entry.value(criterion) else {
+                    continue;
+                };
+                let at = pos2(line.left() + line.width() * axis.share(value, 0.0), y);
+                paint_marker(&painter, at, SHAPES[k % SHAPES.len()], theme::SERIES[k]);
+            }
+        } else if criterion == Criterion::Cost {
+            hint += &format!("\n{NO_COST}");
+        }
+        for (k, text) in told.iter().enumerate() {
+            let x = right + NUMBER * (k as f32 + 1.0);
+            words(x, y, Align2::RIGHT_CENTER, text, theme::SERIES[k]);
+        }
+        response.on_hover_text(hint);
+    }
+    // No speed without its error.
+    let y = rect.top() + (lines - 0.5) * height;
+    words(
+        rect.left(),
+        y,
+        Align2::LEFT_CENTER,
+        "its error",
+        Color32::from_gray(225),
+    );
+    for (k, entry) in chosen.iter().enumerate() {
+        let x = right + NUMBER * (k as f32 + 1.0);
+        let text = match entry.cost {
+            Some(choice) => format!("{} texel", significant(choice.error_texels)),
+            None => NONE.to_owned(),
+        };
+        words(x, y, Align2::RIGHT_CENTER, &text, theme::SERIES[k]);
+    }
+}
+
+/// The chosen mappings' values, with all that belongs to them.
+fn whole_text(chosen: &[&Entry<'_>], criterion: Criterion) -> String {
+    let all: Vec<String> = chosen.iter().map(|entry| entry.text(criterion)).collect();
+    all.join("; ")
+}
+
+/// A number as short as it can be; the cost's error has a line of its own.
+fn number(entry: &Entry<'_>, criterion: Criterion) -> String {
+    match entry.value(criterion) {
+        Some(value) => value_text(criterion, value),
+        None if criterion == Criterion::Cost => NONE.to_owned(),
+        None => TO_COME.to_owned(),
+    }
+}
+
+/// The chosen mappings with their marks.
+fn legend_ui(ui: &mut Ui, chosen: &[&Entry<'_>]) {
+    ui.horizontal_wrapped(|ui| {
+        for (k, entry) in chosen.iter().enumerate() {
+            let (rect, _) = ui.allocate_exact_size(Vec2::splat(11.0), Sense::hover());
+            let color = theme::SERIES[k];
+            paint_marker(ui.painter(), rect.center(), SHAPES[k % SHAPES.len()], color);
+            ui.colored_label(color, entry.map.info().id);
+        }
+    });
+}

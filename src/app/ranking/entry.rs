@@ -1,0 +1,123 @@
+//! A mapping with what is known of it, and that in words.
+
+use crate::app::laboratory::{cheapest_lookup, measured_text};
+use crate::app::model::Model;
+use crate::app::numbers::significant;
+use crate::lab::choice::Choice;
+use crate::lab::metrics::{CORNER_BOUND, Metrics, UNBOUNDED};
+use crate::lab::ranking::{Criterion, Placed, order};
+use crate::mapping::MappingId;
+
+/// Where a number is still to come.
+pub const TO_COME: &str = "…";
+/// Where none is known.
+pub const NONE: &str = "–";
+/// How to get costs.
+pub const NO_COST: &str = "Not measured on this machine: open Run time and error, choose the mapping there and press Measure. What is measured but not within the error budget there has no cost here either.";
+
+/// A mapping with what is known of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry<'a> {
+    /// Which it is.
+    pub map: MappingId,
+    /// Its distortion, once it is measured.
+    pub metrics: Option<&'a Metrics>,
+    /// Its cheapest lookup within the laboratory's budget.
+    pub cost: Option<Choice<'a>>,
+    /// Its place by area and shape.
+    pub placed: Option<Placed>,
+}
+
+/// All mappings, in teaching order.
+pub fn entries<'a>(model: &Model<'a>) -> Vec<Entry<'a>> {
+    let ranking = &model.state.ranking;
+    let lab = &model.labs.ranking;
+    let measured: Vec<&Metrics> = MappingId::ALL.iter().filter_map(|m| lab.of(*m)).collect();
+    let places = order(&measured, ranking.basis, ranking.weight);
+    let rows = model.labs.bench.rows();
+    let entry = |&map: &MappingId| Entry {
+        map,
+        metrics: lab.of(map),
+        cost: cheapest_lookup(model.state, rows, map),
+        placed: places.iter().find(|placed| placed.map == map).copied(),
+    };
+    MappingId::ALL.iter().map(entry).collect()
+}
+
+impl Entry<'_> {
+    /// Its value of a criterion, infinite without bound; `None` where it is not known.
+    pub fn value(&self, criterion: Criterion) -> Option<f64> {
+        match criterion {
+            Criterion::Cost => self.cost.map(|choice| choice.row.ns),
+            _ => criterion.of(self.metrics?, None),
+        }
+    }
+
+    /// The value as a cell of the table; no speed without its error.
+    pub fn text(&self, criterion: Criterion) -> String {
+        match (criterion, self.cost, self.value(criterion)) {
+            (Criterion::Cost, Some(choice), _) => measured_text(&choice),
+            (Criterion::Cost, None, _) => NONE.to_owned(),
+            (_, _, Some(value)) => value_text(criterion, value),
+            (_, _, None) => TO_COME.to_owned(),
+        }
+    }
+
+    /// "equal-area, continuous".
+    pub fn claims(&self) -> String {
+        let claims = self.map.info().claims;
+        let all = [
+            (claims.equal_area, "equal-area"),
+            (claims.conformal, "conformal"),
+            (claims.continuous, "continuous"),
+        ];
+        let kept: Vec<&str> = all.iter().filter(|c| c.0).map(|c| c.1).collect();
+        kept.join(", ")
+    }
+
+    /// Everything, a line each.
+    pub fn summary(&self) -> String {
+        let mut lines = vec![self.map.info().name.to_owned()];
+        let claims = self.claims();
+        if !claims.is_empty() {
+            lines.push(claims);
+        }
+        for criterion in Criterion::ALL {
+            lines.push(format!("{}: {}", criterion.name(), self.text(criterion)));
+        }
+        if let Some(near) = self.corner_text() {
+            lines.push(near.to_owned());
+        }
+        lines.join("\n")
+    }
+
+    /// What its largest a/b has to do with the bound at a cube's corner.
+    pub fn corner_text(&self) -> Option<&'static str> {
+        /// As near as the search for the largest ends.
+        const NEAR: f64 = 1e-6;
+        let corners = 6; // faces, three of which meet at a corner
+        let above = self.value(Criterion::ShapeMax)? - CORNER_BOUND;
+        if self.map.info().chart_count() != corners || above > NEAR {
+            return None;
+        }
+        Some(if above > -NEAR {
+            "a/b max is √3: what is smooth at a cube's corner is not below"
+        } else {
+            "a/b max is below √3, which is no contradiction: this cube is bent along the diagonals, so it is not smooth at the corner"
+        })
+    }
+}
+
+/// A value with its unit.
+pub fn value_text(criterion: Criterion, value: f64) -> String {
+    if !value.is_finite() {
+        return UNBOUNDED.to_owned();
+    }
+    let unit = criterion.unit();
+    match criterion {
+        Criterion::AreaRms => format!("{value:.4}"),
+        Criterion::OmegaMean | Criterion::OmegaMax => format!("{value:.2}{unit}"),
+        Criterion::Cost => format!("{}{unit}", significant(value)),
+        _ => format!("{value:.3}"),
+    }
+}
