@@ -218,7 +218,7 @@ fn step_over<R: Real>(point: ChartPoint<R>) -> ChartPoint<R> {
 /// The quarter of longitude from +z, +x, -z or -x on; 0 at a pole. By signs alone, so that it is the same in every number type.
 fn quarter<R: Real>(d: Vec3<R>) -> u32 {
     let zero = R::zero();
-    let is_on_axis = !(d.x > zero || d.x < zero);
+    let is_on_axis = d.x == zero;
     if d.x < zero || (is_on_axis && d.z < zero) {
         if d.z < zero { 2 } else { 3 }
     } else if d.z > zero || is_on_axis {
