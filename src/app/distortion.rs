@@ -13,8 +13,9 @@ use super::object::Jobs;
 use super::panel_view::PanelWindow;
 use super::theme;
 use crate::imaging::Progress;
+use crate::imaging::resample::texels_of;
 use crate::lab::metrics::heat::heat;
-use crate::lab::metrics::tissot::indicatrices;
+use crate::lab::metrics::tissot::{OUTLINE, indicatrices};
 use crate::lab::metrics::{Quantity, Yardstick};
 use crate::mapping::{ChartPoint, MappingId};
 use crate::math::Vec3;
@@ -136,12 +137,6 @@ pub fn paint_distortion(
     }
 }
 
-/// Where the whole picture lies on the screen.
-fn picture_rect(window: &PanelWindow) -> Rect {
-    let [low, high] = [[0.0; 2], [1.0; 2]].map(|place| window.screen_from_picture(place));
-    Rect::from_min_max(low, high)
-}
-
 fn paint_heat(
     model: &mut Model<'_>,
     painter: &Painter,
@@ -151,7 +146,7 @@ fn paint_heat(
 ) {
     /// A magnified panel shows more of the same: finer than this nobody sees a difference.
     const MOST: f32 = 1024.0;
-    let rect = picture_rect(window);
+    let rect = window.picture_rect();
     let pixels = rect.size() * painter.ctx().pixels_per_point();
     let shrink = (MOST / pixels.max_elem()).min(1.0);
     let side = |length: f32| (length * shrink).round().max(1.0) as usize;
@@ -180,20 +175,13 @@ fn paint_ellipses(painter: &Painter, mapping: MappingId, spacing_deg: f64, windo
         // Beyond its chart another one lies, for which it does not stand.
         let painter =
             painter.with_clip_rect(painter.clip_rect().intersect(Rect::from_two_pos(a, b)));
-        let outline: Vec<Pos2> = ellipse.outline(OUTLINE).filter_map(on_screen).collect();
+        let mut outline: Vec<Pos2> = ellipse.outline(OUTLINE).filter_map(on_screen).collect();
         if outline.iter().any(|at| painter.clip_rect().contains(*at)) {
-            paint_ellipse(&painter, outline);
+            // Not filled: near a rim it may be thinner than a fill's soft edge.
+            outline.extend(outline.first().copied());
+            edged_line(&painter, outline, 1.2, theme::PROBE);
         }
     }
-}
-
-/// Points around an ellipse.
-pub const OUTLINE: usize = 32;
-
-/// One ellipse by its outline. It is not filled: near a rim it may be thinner than a fill's soft edge.
-pub fn paint_ellipse(painter: &Painter, mut outline: Vec<Pos2>) {
-    outline.extend(outline.first().copied());
-    edged_line(painter, outline, 1.2, theme::PROBE);
 }
 
 /// The scale of the heat map with its numbers, and where the probe stands on it: one line, and its name above it where there is room.
@@ -215,8 +203,7 @@ pub fn paint_legend(painter: &Painter, model: &Model<'_>, mapping: MappingId, re
     if rect.height() < LEAST_HEIGHT {
         return;
     }
-    let [width, height] = model.map_size(mapping).map(f64::from);
-    let texels = width * height * f64::from(mapping.info().chart_count());
+    let texels = texels_of(mapping, model.map_size(mapping)) as f64;
     let place = rect.left_bottom() + vec2(MARGIN, -MARGIN);
     let lines = if rect.height() < NAMED_HEIGHT {
         1.0
@@ -276,7 +263,6 @@ pub fn paint_legend(painter: &Painter, model: &Model<'_>, mapping: MappingId, re
 /// The quantity in a direction; `None` where the mapping has no place of its own for it.
 fn value_at(mapping: MappingId, quantity: Quantity, dir: Vec3<f64>, texels: f64) -> Option<f64> {
     let yardstick = Yardstick::new(mapping);
-    let is_own = mapping.info().coverage.contains(dir.to_f64());
-    let local = yardstick.at(mapping.forward(dir).filter(|_| is_own)?)?;
+    let local = yardstick.at(mapping.own_point(dir)?)?;
     Some(quantity.of(&local, &yardstick, texels))
 }

@@ -214,9 +214,8 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, size: egui::Vec2) {
         _ => pointer(ui, model, view, &window, &response),
     }
     let painter = ui.painter_at(rect);
-    let corners = [[0.0; 2], [1.0; 2]].map(|place| window.screen_from_picture(place));
     let whole = Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
-    let picture = Rect::from_min_max(corners[0], corners[1]);
+    let picture = window.picture_rect();
     painter.image(shown.picture.id(), picture, whole, Color32::WHITE);
     if model.state.overlays.names {
         paint_chart_names(&painter, mapping, &window);

@@ -83,6 +83,12 @@ impl PanelWindow {
         }
     }
 
+    /// Where the whole picture lies on the screen.
+    pub fn picture_rect(&self) -> Rect {
+        let [low, high] = [[0.0; 2], [1.0; 2]].map(|place| self.screen_from_picture(place));
+        Rect::from_min_max(low, high)
+    }
+
     /// Size of one picture unit on the screen in points, across.
     pub fn points_across(&self) -> f32 {
         self.size.x

@@ -38,6 +38,22 @@ pub fn pane_frame(ui: &mut egui::Ui) -> egui::Frame {
     egui::Frame::new().inner_margin(6.0)
 }
 
+/// A pane of text that scrolls: down where it is long, sideways below a width. `content` is told the pane's height.
+pub fn scrolled_pane(
+    ui: &mut egui::Ui,
+    least_width: f32,
+    content: impl FnOnce(&mut egui::Ui, f32),
+) {
+    pane_frame(ui).show(ui, |ui| {
+        let size = ui.available_size();
+        let scroll = egui::ScrollArea::both().auto_shrink([false, false]);
+        scroll.show(ui, |ui| {
+            ui.set_max_width(size.x.max(least_width) - ui.spacing().scroll.allocated_width());
+            content(ui, size.y);
+        });
+    });
+}
+
 /// Sets fonts and colours of a fresh context.
 pub fn install(ctx: &egui::Context) {
     ctx.set_theme(egui::Theme::Dark);

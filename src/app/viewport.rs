@@ -19,7 +19,7 @@ use crate::optics::Material;
 use crate::scene::{Camera, Ray, Target};
 
 /// Radians that the camera turns for a drag over one point.
-const ORBIT_RAD_PER_POINT: f32 = 0.008;
+pub(super) const ORBIT_RAD_PER_POINT: f32 = 0.008;
 /// Points around the divider in which it can be grabbed.
 const DIVIDER_GRIP: f32 = 8.0;
 

@@ -17,9 +17,7 @@ impl TexelDensity {
     /// Of a map with charts of `size` = [width, height] texels. `None` for what is no direction, where the map has no texel of
     /// its own, and at singular points whose Jacobian is not finite.
     pub fn at(mapping: MappingId, size: [u32; 2], dir: Vec3<f64>) -> Option<Self> {
-        let is_held = mapping.info().coverage.contains(dir.to_f64());
-        let point = mapping.forward(dir).filter(|_| is_held)?;
-        let (_, per_chart) = mapping.jacobian(point)?;
+        let (_, per_chart) = mapping.jacobian(mapping.own_point(dir)?)?;
         let per_texel = Jacobian {
             du: per_chart.du * f64::from(size[0]).recip(),
             dv: per_chart.dv * f64::from(size[1]).recip(),

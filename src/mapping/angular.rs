@@ -55,28 +55,17 @@ impl Mapping for Angular {
         let across = x.hypot(y);
         let angle = across.atan2(z);
         let rho = angle * R::from_f64(0.5 * FRAC_1_PI);
+        let [u, v] = Step::from_middle(true, rho, [x, y, across], &point);
         vec![
-            Step::new(
-                "across",
-                "q = √(x² + y²)",
-                format!("√({x}² + {y}²) = {across}"),
-            ),
+            Step::across(x, y, across),
             Step::new(
                 "angle",
                 "θ = atan2(q, z)",
                 format!("atan2({across}, {z}) = {angle} rad"),
             ),
             Step::new("radius", "ρ = θ/(2π)", format!("{angle}/(2π) = {rho}")),
-            Step::new(
-                "u",
-                "u = 1/2 + ρ x/q",
-                format!("1/2 + {rho} · {x}/{across} = {}", point.u),
-            ),
-            Step::new(
-                "v",
-                "v = 1/2 − ρ y/q",
-                format!("1/2 − {rho} · {y}/{across} = {}", point.v),
-            ),
+            u,
+            v,
         ]
     }
 }

@@ -195,6 +195,44 @@ impl Step {
         }
     }
 
+    /// Which of two discs.
+    pub(super) fn disc(is_front: bool) -> Self {
+        let found = if is_front {
+            "z ≥ 0: front"
+        } else {
+            "z < 0: back"
+        };
+        Self::new("chart", "front where z ≥ 0, else back", found.to_owned())
+    }
+
+    /// The distance `q` of a direction from the z axis.
+    pub(super) fn across<R: Display>(x: R, y: R, q: R) -> Self {
+        Self::new("across", "q = √(x² + y²)", format!("√({x}² + {y}²) = {q}"))
+    }
+
+    /// u and v at a distance `rho` from a disc's middle, towards (x, y)/q.
+    pub(super) fn from_middle<R: Display>(
+        is_front: bool,
+        rho: R,
+        [x, y, q]: [R; 3],
+        point: &ChartPoint<R>,
+    ) -> [Self; 2] {
+        let (u_formula, sign) = if is_front {
+            ("u = 1/2 + ρ x/q", "+")
+        } else {
+            ("u = 1/2 − ρ x/q", "−")
+        };
+        let ChartPoint { u, v, .. } = point;
+        [
+            Self::new("u", u_formula, format!("1/2 {sign} {rho} · {x}/{q} = {u}")),
+            Self::new(
+                "v",
+                "v = 1/2 − ρ y/q",
+                format!("1/2 − {rho} · {y}/{q} = {v}"),
+            ),
+        ]
+    }
+
     /// The length `n` of a direction.
     pub(super) fn length<R: Display>(Vec3 { x, y, z }: Vec3<R>, n: R) -> Self {
         Self::new(
@@ -334,6 +372,15 @@ pub(super) fn over_rim<R: Real>(chart: u32, p: R, q: R) -> (u32, R, R) {
     }
     let shrink = (R::two() - radius) / radius;
     (chart ^ 1, -p * shrink, q * shrink)
+}
+
+/// A direction found as if on the front one of two discs, on the disc where it is: the back one looks along -z and is seen from inside too.
+pub(super) fn on_disc<R: Real>(chart: u32, Vec3 { x, y, z }: Vec3<R>) -> Vec3<R> {
+    if chart == 0 {
+        Vec3::new(x, y, z)
+    } else {
+        Vec3::new(-x, y, -z)
+    }
 }
 
 /// What lies across the borders of the charts.

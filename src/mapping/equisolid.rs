@@ -3,7 +3,7 @@
 //! Chart 0 looks along +z, chart 1 along -z; both are what an observer inside sees. With theta the angle from a disc's axis and r
 //! the distance from its middle over the disc's radius, r = sqrt 2 sin(theta/2).
 
-use super::chart::{over_rim, to_signed};
+use super::chart::{on_disc, over_rim, to_signed};
 use super::{Borders, ChartPoint, Claims, Domain, Family, Layout, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
 
@@ -45,12 +45,7 @@ impl Mapping for Equisolid {
         let (chart, p, q) = over_rim(point.chart, to_signed(point.u), -to_signed(point.v));
         let square = p * p + q * q;
         let scale = (R::two() - square).sqrt();
-        let (x, y, z) = (p * scale, q * scale, R::one() - square);
-        if chart == 0 {
-            Vec3::new(x, y, z)
-        } else {
-            Vec3::new(-x, y, -z)
-        }
+        on_disc(chart, Vec3::new(p * scale, q * scale, R::one() - square))
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
@@ -62,15 +57,14 @@ impl Mapping for Equisolid {
         let size = z.abs();
         let m = R::two() * (n * (n + size)).sqrt();
         let front = point.chart == 0;
-        let [chart, formula] = if front {
-            ["z ≥ 0: front", "u = 1/2 + x/m"]
+        let (formula, sign) = if front {
+            ("u = 1/2 + x/m", "+")
         } else {
-            ["z < 0: back", "u = 1/2 − x/m"]
+            ("u = 1/2 − x/m", "−")
         };
-        let sign = if front { "+" } else { "−" };
         vec![
             Step::length(d, n),
-            Step::new("chart", "front where z ≥ 0, else back", chart.to_owned()),
+            Step::disc(front),
             Step::new(
                 "m",
                 "m = 2√(n(n + |z|))",

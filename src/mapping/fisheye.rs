@@ -3,7 +3,7 @@
 //! Chart 0 looks along +z, chart 1 along -z; both are what an observer inside sees. The distance from a disc's middle is the
 //! angle from its axis, a right angle at the rim.
 
-use super::chart::{over_rim, to_signed};
+use super::chart::{on_disc, over_rim, to_signed};
 use super::{Borders, ChartPoint, Domain, Family, Layout, Mapping, MappingInfo, Step, evaluator};
 use crate::math::{Real, Vec3, unit_in_plane};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
@@ -42,19 +42,15 @@ impl Mapping for Fisheye {
     fn continued<R: Real>(point: ChartPoint<R>) -> Vec3<R> {
         let (chart, p, q) = over_rim(point.chart, to_signed(point.u), -to_signed(point.v));
         let radius = p.hypot(q);
-        let (x, y, z) = if radius <= R::zero() {
+        let front = if radius <= R::zero() {
             // p/r has no value in the middle; sin(r pi/2)/r has one.
             let slope = R::from_f64(FRAC_PI_2);
-            (slope * p, slope * q, R::one())
+            Vec3::new(slope * p, slope * q, R::one())
         } else {
             let (sin, cos) = (radius * R::from_f64(0.25)).sin_cos_turns();
-            (sin * (p / radius), sin * (q / radius), cos)
+            Vec3::new(sin * (p / radius), sin * (q / radius), cos)
         };
-        if chart == 0 {
-            Vec3::new(x, y, z)
-        } else {
-            Vec3::new(-x, y, -z)
-        }
+        on_disc(chart, front)
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
@@ -67,35 +63,18 @@ impl Mapping for Fisheye {
         let angle = across.atan2(size);
         let rho = angle * R::from_f64(FRAC_1_PI);
         let front = point.chart == 0;
-        let [chart, formula] = if front {
-            ["z ≥ 0: front", "u = 1/2 + ρ x/q"]
-        } else {
-            ["z < 0: back", "u = 1/2 − ρ x/q"]
-        };
-        let sign = if front { "+" } else { "−" };
+        let [u, v] = Step::from_middle(front, rho, [x, y, across], &point);
         vec![
-            Step::new("chart", "front where z ≥ 0, else back", chart.to_owned()),
-            Step::new(
-                "across",
-                "q = √(x² + y²)",
-                format!("√({x}² + {y}²) = {across}"),
-            ),
+            Step::disc(front),
+            Step::across(x, y, across),
             Step::new(
                 "angle",
                 "θ = atan2(q, |z|)",
                 format!("atan2({across}, {size}) = {angle} rad"),
             ),
             Step::new("radius", "ρ = θ/π", format!("{angle}/π = {rho}")),
-            Step::new(
-                "u",
-                formula,
-                format!("1/2 {sign} {rho} · {x}/{across} = {}", point.u),
-            ),
-            Step::new(
-                "v",
-                "v = 1/2 − ρ y/q",
-                format!("1/2 − {rho} · {y}/{across} = {}", point.v),
-            ),
+            u,
+            v,
         ]
     }
 }

@@ -88,6 +88,12 @@ impl MappingId {
     pub fn from_id(id: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|m| m.info().id == id)
     }
+
+    /// The chart point of a direction; `None` also where the mapping has no image of its own for it.
+    pub fn own_point(self, dir: Vec3<f64>) -> Option<ChartPoint<f64>> {
+        let is_own = self.info().coverage.contains(dir.to_f64());
+        self.forward(dir).filter(|_| is_own)
+    }
 }
 
 impl std::fmt::Display for MappingId {

@@ -2,6 +2,7 @@
 //!
 //! Chart 0 looks along +z, chart 1 along -z; both are what an observer inside sees. Exactly conformal, area ratio 4.
 
+use super::chart::on_disc;
 use super::evaluator;
 use super::{Borders, ChartPoint, Claims, Domain, Family, Layout, Mapping, MappingInfo, Step};
 use crate::math::{Real, Vec3};
@@ -45,16 +46,12 @@ impl Mapping for Paraboloid {
         // The paraboloid's normal is (p, q, 1) and the direction the axis reflected there.
         let square = p * p + q * q;
         let scale = R::one() / (R::one() + square);
-        let (x, y, z) = (
+        let front = Vec3::new(
             R::two() * p * scale,
             R::two() * q * scale,
             (R::one() - square) * scale,
         );
-        if point.chart == 0 {
-            Vec3::new(x, y, z)
-        } else {
-            Vec3::new(-x, y, -z)
-        }
+        on_disc(point.chart, front)
     }
 
     fn steps<R: Real + std::fmt::Display>(dir: Vec3<R>) -> Vec<Step> {
@@ -64,19 +61,11 @@ impl Mapping for Paraboloid {
         let Vec3 { x, y, z } = d;
         let n = d.length();
         let front = point.chart == 0;
-        let (chart, sign) = if front {
-            ("z ≥ 0: front", "+")
-        } else {
-            ("z < 0: back", "−")
-        };
+        let sign = if front { "+" } else { "−" };
         let size = z.abs();
         vec![
-            Step::new(
-                "length",
-                "n = √(x² + y² + z²)",
-                format!("√({x}² + {y}² + {z}²) = {n}"),
-            ),
-            Step::new("chart", "front where z ≥ 0, else back", chart.to_owned()),
+            Step::length(d, n),
+            Step::disc(front),
             Step::new(
                 "u",
                 if front {

@@ -67,29 +67,18 @@ impl Mapping for Stereographic {
         } else {
             "z ≥ −4n/5: on the disc"
         };
+        let [u, v] = Step::from_middle(true, rho, [x, y, across], &point);
         vec![
             Step::length(d, n),
-            Step::new(
-                "across",
-                "q = √(x² + y²)",
-                format!("√({x}² + {y}²) = {across}"),
-            ),
+            Step::across(x, y, across),
             Step::new(
                 "radius",
                 "ρ = tan(θ/2)/6 = q/(6(n + z)), at most 1/2",
                 format!("{across}/(6({n} + {z})) = {rho}"),
             ),
             Step::new("side", "covered where z ≥ −4n/5", side.to_owned()),
-            Step::new(
-                "u",
-                "u = 1/2 + ρ x/q",
-                format!("1/2 + {rho} · {x}/{across} = {}", point.u),
-            ),
-            Step::new(
-                "v",
-                "v = 1/2 − ρ y/q",
-                format!("1/2 − {rho} · {y}/{across} = {}", point.v),
-            ),
+            u,
+            v,
         ]
     }
 }

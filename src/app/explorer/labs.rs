@@ -10,11 +10,28 @@ use crate::app::arrangement::Pane;
 use crate::app::budget;
 use crate::app::fold::LightWanted;
 use crate::app::laboratory;
+use crate::app::labs::Labs;
 use crate::app::loss::Wanted;
 use crate::app::object::Jobs;
+use crate::app::state::AppState;
 use crate::lab::files::{BENCH, LabError, prepare, write_bench};
 
 impl Explorer {
+    /// Lets a laboratory start what the state asks for; what goes wrong is told.
+    fn start(
+        &mut self,
+        ctx: &Context,
+        begin: impl FnOnce(&mut Labs, &AppState, &mut Jobs<'_>) -> Result<(), String>,
+    ) {
+        let mut jobs = Jobs {
+            last_id: &mut self.next_job,
+            ctx,
+        };
+        if let Err(why) = begin(&mut self.labs, &self.state, &mut jobs) {
+            self.fail(why);
+        }
+    }
+
     /// Measures the loss that is asked for while its pane is seen, and nothing while it is hidden.
     pub(super) fn measure_loss(&mut self, ctx: &Context) {
         let seen = self.surroundings.as_ref();
@@ -27,13 +44,7 @@ impl Explorer {
             self.labs.loss.complete(wanted, ctx);
             return;
         }
-        let mut jobs = Jobs {
-            last_id: &mut self.next_job,
-            ctx,
-        };
-        if let Err(why) = self.labs.loss.follow(wanted, &mut jobs) {
-            self.fail(why);
-        }
+        self.start(ctx, |labs, _, jobs| labs.loss.follow(wanted, jobs));
     }
 
     /// Makes the pictures of two maps with as many texels while they are seen.
@@ -52,24 +63,12 @@ impl Explorer {
             self.labs.budget.complete(wanted, lens, ctx);
             return;
         }
-        let mut jobs = Jobs {
-            last_id: &mut self.next_job,
-            ctx,
-        };
-        if let Err(why) = self.labs.budget.follow(wanted, lens, &mut jobs) {
-            self.fail(why);
-        }
+        self.start(ctx, |labs, _, jobs| labs.budget.follow(wanted, lens, jobs));
     }
 
     /// Measures the evaluators that the laboratory shows.
     pub(super) fn measure_evaluators(&mut self, ctx: &Context) {
-        let mut jobs = Jobs {
-            last_id: &mut self.next_job,
-            ctx,
-        };
-        if let Err(why) = self.labs.bench.measure(&self.state, &mut jobs) {
-            self.fail(why);
-        }
+        self.start(ctx, |labs, state, jobs| labs.bench.measure(state, jobs));
     }
 
     /// Writes what the laboratory has measured, as the command does.
@@ -97,16 +96,12 @@ impl Explorer {
             self.labs.bench.errors.complete(wanted, make);
             return;
         }
-        let mut jobs = Jobs {
-            last_id: &mut self.next_job,
-            ctx,
-        };
         let painter = ctx.clone();
         let make = move |wanted: &laboratory::Wanted, progress: &_| wanted.make(&painter, progress);
-        let errors = &mut self.labs.bench.errors;
-        if let Err(why) = errors.follow(wanted, "where it errs", &mut jobs, make) {
-            self.fail(why);
-        }
+        self.start(ctx, |labs, _, jobs| {
+            let errors = &mut labs.bench.errors;
+            errors.follow(wanted, "where it errs", jobs, make)
+        });
     }
 
     /// Makes the heat maps that are seen.
@@ -116,33 +111,24 @@ impl Explorer {
             self.labs.heat.complete(&wanted, ctx);
             return;
         }
-        let mut jobs = Jobs {
-            last_id: &mut self.next_job,
-            ctx,
-        };
-        if let Err(why) = self.labs.heat.follow(&wanted, &mut jobs) {
-            self.fail(why);
-        }
+        self.start(ctx, |labs, _, jobs| labs.heat.follow(&wanted, jobs));
     }
 
     /// Makes the light of the folded map that is seen.
     pub(super) fn light_fold(&mut self, ctx: &Context) {
         let seen = self.surroundings.as_ref().filter(|_| self.folds);
         let wanted = seen.map(|shown| LightWanted::new(&self.state, &shown.loaded));
-        let light = &mut self.labs.fold.light;
         if self.complete {
+            let light = &mut self.labs.fold.light;
             light.complete(wanted, |wanted, progress| wanted.make(ctx, progress));
             return;
         }
-        let mut jobs = Jobs {
-            last_id: &mut self.next_job,
-            ctx,
-        };
         let painter = ctx.clone();
         let make = move |wanted: &LightWanted, progress: &_| wanted.make(&painter, progress);
-        if let Err(why) = light.follow(wanted, "the light to fold", &mut jobs, make) {
-            self.fail(why);
-        }
+        self.start(ctx, |labs, _, jobs| {
+            let light = &mut labs.fold.light;
+            light.follow(wanted, "the light to fold", jobs, make)
+        });
     }
 
     /// Measures how every mapping distorts while the ranking is seen.
@@ -154,25 +140,14 @@ impl Explorer {
             }
             return;
         }
-        let mut jobs = Jobs {
-            last_id: &mut self.next_job,
-            ctx,
-        };
-        if let Err(why) = self.labs.ranking.follow(is_seen, &mut jobs) {
-            self.fail(why);
-        }
+        self.start(ctx, |labs, _, jobs| labs.ranking.follow(is_seen, jobs));
     }
 
     /// Asks the evaluators of the selected mapping where they break.
     pub(super) fn measure_stability(&mut self, ctx: &Context) {
-        let mut jobs = Jobs {
-            last_id: &mut self.next_job,
-            ctx,
-        };
-        let measured = self.labs.stability.measure(self.state.mapping, &mut jobs);
-        if let Err(why) = measured {
-            self.fail(why);
-        }
+        self.start(ctx, |labs, state, jobs| {
+            labs.stability.measure(state.mapping, jobs)
+        });
     }
 
     /// Looks through the microscope that is seen.
@@ -185,12 +160,6 @@ impl Explorer {
             self.labs.stability.look_now(view, ctx);
             return;
         }
-        let mut jobs = Jobs {
-            last_id: &mut self.next_job,
-            ctx,
-        };
-        if let Err(why) = self.labs.stability.follow(view, &mut jobs) {
-            self.fail(why);
-        }
+        self.start(ctx, |labs, _, jobs| labs.stability.follow(view, jobs));
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::view::Surface;
 use crate::app::state::Overlays;
-use crate::lab::metrics::tissot::indicatrices;
+use crate::lab::metrics::tissot::{OUTLINE, indicatrices};
 use crate::mapping::cube_face::GREAT_CIRCLES;
 use crate::mapping::{ChartPoint, Domain, MappingId};
 use crate::math::Vec3;
@@ -37,8 +37,6 @@ pub struct Line {
 const STEPS: u32 = 48;
 /// Parts into which the lines of equal u and v divide a chart.
 const PARTS: u32 = 8;
-/// Points around an ellipse.
-const ROUND: usize = 32;
 
 /// The lines that are switched on.
 pub fn lines(surface: &Surface, overlays: Overlays) -> Vec<Line> {
@@ -65,7 +63,7 @@ pub fn lines(surface: &Surface, overlays: Overlays) -> Vec<Line> {
     }
     if overlays.ellipses {
         for ellipse in indicatrices(map, f64::from(overlays.ellipses_deg)) {
-            let mut points: Vec<ChartPoint<f64>> = ellipse.outline(ROUND).collect();
+            let mut points: Vec<ChartPoint<f64>> = ellipse.outline(OUTLINE).collect();
             points.extend(points.first().copied());
             // Beyond its chart another one lies, for which it does not stand.
             let is_on = |p: &ChartPoint<f64>| p.is_on(map.info().chart_count());

@@ -11,6 +11,7 @@ use crate::app::marks::{cross_mark, edged_line, edged_text};
 use crate::app::model::Model;
 use crate::app::state::FoldState;
 use crate::app::theme;
+use crate::app::viewport::{ORBIT_RAD_PER_POINT, aspect};
 use crate::gpu::GREAT_CIRCLE_COLORS;
 use crate::mapping::{ChartPoint, MappingId};
 
@@ -75,7 +76,7 @@ pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
         state.mapping,
         state.fold.share,
         state.fold.camera,
-        rect.width() / rect.height(),
+        aspect(rect),
     );
     let quads = surface.quads();
     let on_screen = |at: [f32; 2]| rect.min + vec2(at[0], at[1]) * rect.size();
@@ -86,20 +87,14 @@ pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let see_through = state.fold.see_through;
     let picture = picture_of(model, state.mapping);
     if let Some(picture) = picture {
-        let layer = |is_outside| {
-            let own = quads
-                .iter()
-                .filter(move |quad: &&Quad| quad.is_outside == is_outside);
+        // The insides that are seen lie behind all outsides: on a closed surface, and on one that opens towards the eye.
+        for is_outside in [false, true] {
             let tint = if is_outside && see_through {
                 Color32::from_white_alpha(70)
             } else {
                 Color32::WHITE
             };
-            (own, tint)
-        };
-        // The insides that are seen lie behind all outsides: on a closed surface, and on one that opens towards the eye.
-        for is_outside in [false, true] {
-            let (own, tint) = layer(is_outside);
+            let own = quads.iter().filter(|quad| quad.is_outside == is_outside);
             painter.add(mesh(state.mapping, picture, own, tint, on_screen));
         }
     }
@@ -143,12 +138,11 @@ pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
 
 /// Drags turn, the wheel zooms, a double click goes back.
 fn turn(ui: &Ui, model: &mut Model<'_>, response: &egui::Response) {
-    /// Radians for each point.
-    const TURN: f32 = 0.008;
     let mut fold = model.state.fold;
     let drag = response.drag_delta();
     if drag != egui::Vec2::ZERO {
-        fold.camera.orbit(drag.x * TURN, drag.y * TURN);
+        let drag = drag * ORBIT_RAD_PER_POINT;
+        fold.camera.orbit(drag.x, drag.y);
     }
     let scroll = ui.input(|i| i.smooth_scroll_delta.y);
     if response.contains_pointer() && scroll != 0.0 {

@@ -57,11 +57,6 @@ impl Surface {
         self.map
     }
 
-    /// What lies halfway.
-    pub fn solid(&self) -> Option<crate::mapping::Solid> {
-        self.unfolding.solid()
-    }
-
     fn place(&self, point: ChartPoint<f64>) -> glam::Vec3 {
         let place = (self.unfolding.place(point, self.share) - self.middle) * (1.0 / self.radius);
         let [x, y, z] = place.to_f64().map(|c| c as f32);

@@ -33,14 +33,7 @@ const GRIP: f32 = 14.0;
 
 /// Shows the laboratory in all the space there is.
 pub fn laboratory_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    theme::pane_frame(ui).show(ui, |ui| {
-        let size = ui.available_size();
-        let scroll = egui::ScrollArea::both().auto_shrink([false, false]);
-        scroll.show(ui, |ui| {
-            ui.set_max_width(size.x.max(LEAST_WIDTH) - ui.spacing().scroll.allocated_width());
-            content_ui(ui, model, size.y);
-        });
-    });
+    theme::scrolled_pane(ui, LEAST_WIDTH, |ui, height| content_ui(ui, model, height));
 }
 
 fn content_ui(ui: &mut Ui, model: &mut Model<'_>, height: f32) {
@@ -103,8 +96,7 @@ fn errors_ui(ui: &mut Ui, model: &mut Model<'_>, height: f32) {
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Errors"));
     let window = window_of(&PanelState::new(map, true), rect);
-    let corners = [[0.0; 2], [1.0; 2]].map(|place| window.screen_from_picture(place));
-    let picture = Rect::from_min_max(corners[0], corners[1]);
+    let picture = window.picture_rect();
     let pixels = picture.size() * ui.ctx().pixels_per_point();
     let side = |length: f32| (length.round() as usize).clamp(1, 4096);
     model.errors_wanted = Some(Wanted {

@@ -26,14 +26,7 @@ const TABLE_SHARE: f32 = 0.45;
 
 /// Shows the ranking in all the space there is.
 pub fn ranking_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    theme::pane_frame(ui).show(ui, |ui| {
-        let size = ui.available_size();
-        let scroll = egui::ScrollArea::both().auto_shrink([false, false]);
-        scroll.show(ui, |ui| {
-            ui.set_max_width(size.x.max(LEAST_WIDTH) - ui.spacing().scroll.allocated_width());
-            content_ui(ui, model, size.y);
-        });
-    });
+    theme::scrolled_pane(ui, LEAST_WIDTH, |ui, height| content_ui(ui, model, height));
 }
 
 fn content_ui(ui: &mut Ui, model: &mut Model<'_>, height: f32) {

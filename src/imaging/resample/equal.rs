@@ -14,9 +14,7 @@ fn texels_around(mapping: MappingId, size: [f64; 2]) -> f64 {
     let point = |step: u32| {
         // Off the seams, which lie at round angles.
         let angle = (f64::from(step) + 0.3) / f64::from(STEPS) * std::f64::consts::TAU;
-        let dir = Vec3::new(angle.sin(), 0.0, angle.cos());
-        let held = mapping.info().coverage.contains(dir.to_f64());
-        mapping.forward(dir).filter(|_| held)
+        mapping.own_point(Vec3::new(angle.sin(), 0.0, angle.cos()))
     };
     let (mut texels, mut steps) = (0.0, 0_u32);
     for step in 0..STEPS {

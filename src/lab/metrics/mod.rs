@@ -82,7 +82,17 @@ const SUM_ROWS: u32 = 64;
 /// Measures a mapping; `None` when cancelled.
 pub fn measure(map: MappingId, progress: &Progress) -> Option<Metrics> {
     let yardstick = Yardstick::new(map);
-    let [most_area, least_area, anisotropy, linear] = extremes::largest(
+    // Logarithms of what is largest; smallest ones are the largest of the reciprocals.
+    let [
+        most_area,
+        least_area,
+        anisotropy,
+        linear,
+        longest,
+        shortest,
+        long_diagonal,
+        short_diagonal,
+    ] = extremes::largest(
         &yardstick,
         map,
         [
@@ -90,15 +100,6 @@ pub fn measure(map: MappingId, progress: &Progress) -> Option<Metrics> {
             |l| -l.area.ln(),
             |l| l.anisotropy.ln(),
             |l| l.linear.ln(),
-        ],
-    );
-    if progress.is_cancelled() {
-        return None;
-    }
-    let [longest, shortest, long_diagonal, short_diagonal] = extremes::largest(
-        &yardstick,
-        map,
-        [
             |l| l.sides[0].max(l.sides[1]).ln(),
             |l| -l.sides[0].min(l.sides[1]).ln(),
             |l| l.diagonals[0].max(l.diagonals[1]).ln(),

@@ -6,6 +6,9 @@ use crate::math::Vec3;
 /// Distances of the circles' middles that can be chosen, in degrees.
 pub const SPACING_DEG: (f32, f32) = (8.0, 45.0);
 
+/// Points around an ellipse where it is drawn.
+pub const OUTLINE: usize = 32;
+
 /// Radius of a circle over the distance to the next one: they do not touch.
 pub const RADIUS: f64 = 0.36;
 
@@ -86,11 +89,9 @@ pub fn middles(spacing_deg: f64) -> Vec<Vec3<f64>> {
 /// pole of a latlong the derivative has no end.
 pub fn indicatrices(map: MappingId, spacing_deg: f64) -> Vec<Ellipse> {
     let radius = RADIUS * spacing_deg.to_radians();
-    let coverage = map.info().coverage;
     middles(spacing_deg)
         .into_iter()
-        .filter(|dir| coverage.contains(dir.to_f64()))
-        .filter_map(|dir| Ellipse::of(map, map.forward(dir)?, radius))
+        .filter_map(|dir| Ellipse::of(map, map.own_point(dir)?, radius))
         .filter(|ellipse| ellipse.reach().into_iter().all(|reach| reach < 0.5))
         .collect()
 }
