@@ -10,9 +10,8 @@ use crate::app::laboratory::{free_place, look, paint_marker};
 use crate::app::lists::list_ui;
 use crate::app::model::Model;
 use crate::app::theme;
-use crate::lab::front::on_front;
 use crate::lab::metrics::CORNER_BOUND;
-use crate::lab::ranking::Criterion;
+use crate::lab::ranking::{Criterion, front};
 use crate::lab::scatter::front_steps;
 
 /// Room for the marks: at the left and below.
@@ -69,25 +68,16 @@ pub fn scatter_ui(ui: &mut Ui, model: &mut Model<'_>, entries: &[Entry<'_>], siz
         .iter()
         .filter_map(|entry| Some((entry, [entry.value(chosen[0])?, entry.value(chosen[1])?])))
         .collect();
-    let costs = known.iter().map(|(_, [x, y])| {
-        let bounded = |axis: &Axis, value: f64| {
-            if axis.is_bounded(value) {
-                value
-            } else {
-                f64::NAN
-            }
-        };
-        (bounded(&across, *x), bounded(&up, *y))
-    });
-    let fronts = on_front(&costs.collect::<Vec<_>>());
-    let mut front: Vec<[f64; 2]> = known
+    let values: Vec<[f64; 2]> = known.iter().map(|(_, at)| *at).collect();
+    let fronts = front(chosen, &values);
+    let mut ends: Vec<[f64; 2]> = known
         .iter()
         .zip(&fronts)
         .filter(|(_, is_on)| **is_on)
         .map(|((_, at), _)| *at)
         .collect();
-    front.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let stair: Vec<Pos2> = front_steps(&front).into_iter().map(place).collect();
+    ends.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let stair: Vec<Pos2> = front_steps(&ends).into_iter().map(place).collect();
     for pair in stair.windows(2) {
         let stroke = Stroke::new(1.5, Color32::from_gray(200));
         ui.painter().line_segment([pair[0], pair[1]], stroke);
@@ -189,13 +179,11 @@ fn paint_axes(painter: &Painter, frame: Rect, across: &Axis, up: &Axis) {
 
 /// The least a/b of what is smooth at a cube's corner, where the largest a/b is an axis.
 fn paint_corner(painter: &Painter, frame: Rect, across: &Axis, up: &Axis) {
-    const TEXT: &str = "√3: what is smooth at a cube's corner is not below";
+    const TEXT: &str = "√3: no mapping that is smooth at a cube's corner is below";
     let font = FontId::proportional(LETTER);
     let stroke = Stroke::new(1.0, theme::TEXEL);
-    let is_shown = |axis: &Axis| {
-        axis.criterion == Criterion::ShapeMax
-            && (axis.ends[0]..=axis.ends[1]).contains(&CORNER_BOUND)
-    };
+    let is_shown =
+        |axis: &Axis| axis.criterion == Criterion::ShapeMax && axis.contains(CORNER_BOUND);
     if is_shown(up) {
         let y = frame.bottom() - frame.height() * up.share(CORNER_BOUND, MARGIN);
         painter.hline(frame.x_range(), y, stroke);

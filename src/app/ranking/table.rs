@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use egui::{Align2, Checkbox, Color32, FontId, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
 
-use super::entry::{Entry, NO_COST, NONE, TO_COME};
+use super::entry::{CORNER, Entry, NO_COST, NONE, TO_COME};
 use super::panel::set;
 use crate::app::action::Action;
 use crate::app::model::Model;
@@ -22,8 +22,6 @@ const BOX: f32 = 20.0;
 const NAMED: f32 = 420.0;
 /// What is of less interest.
 const QUIET: Color32 = Color32::from_gray(150);
-/// About the largest a/b, beyond what the criterion says itself.
-const CORNER: &str = "A mapping that is smooth at a cube's corner is not below √3 = 1.732: a right angle of the map is 120° there. The quadrilateralised cube is below because it is bent along the diagonals.";
 
 /// The columns that scroll.
 fn columns() -> impl Iterator<Item = RankingColumn> {
@@ -108,7 +106,11 @@ fn sort(entries: &mut [Entry<'_>], column: RankingColumn, descending: bool) {
             };
             compare(place(a), place(b), descending)
         }
-        RankingColumn::By(criterion) => compare(a.value(criterion), b.value(criterion), descending),
+        RankingColumn::By(criterion) => {
+            let rank =
+                |entry: &Entry<'_>| entry.value(criterion).map(|value| criterion.rank(value));
+            compare(rank(a), rank(b), descending)
+        }
     });
 }
 
@@ -247,8 +249,8 @@ fn head_ui(ui: &mut Ui, model: &mut Model<'_>, column: RankingColumn, rect: Rect
     let mut ranking = model.state.ranking.clone();
     let is_sorted = ranking.sort == column;
     let (words, color) = match (is_sorted, ranking.descending) {
-        (true, false) => (format!("{}↑", title(column)), theme::TEXEL),
-        (true, true) => (format!("{}↓", title(column)), theme::TEXEL),
+        (true, false) => (format!("{} ⬆", title(column)), theme::TEXEL),
+        (true, true) => (format!("{} ⬇", title(column)), theme::TEXEL),
         _ => (title(column).to_owned(), Color32::WHITE),
     };
     let label = format!("Sort by {}", title(column));
