@@ -469,8 +469,8 @@ fn nothing_is_clipped_or_fails_when_tiny() {
                     "area or shape",
                     "two criteria",
                     "compare",
-                    "kind",
-                    "that is",
+                    "rank",
+                    "that are",
                 ] {
                     let rect = ui.query_all_by_label(label).next().unwrap().rect();
                     assert!(

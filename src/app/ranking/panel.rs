@@ -104,11 +104,11 @@ fn kinds_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let mut ranking = model.state.ranking.clone();
     ui.horizontal_wrapped(|ui| {
         let families = std::iter::once(None).chain(Family::ALL.map(Some));
-        list_ui(ui, "kind", &mut ranking.family, families, |family| {
+        list_ui(ui, "rank", &mut ranking.family, families, |family| {
             family.map_or("all", Family::title).to_owned()
         });
         let claims = std::iter::once(None).chain(Claim::ALL.map(Some));
-        list_ui(ui, "that is", &mut ranking.claim, claims, |claim| {
+        list_ui(ui, "that are", &mut ranking.claim, claims, |claim| {
             claim.map_or("anything", Claim::name).to_owned()
         });
     });
