@@ -8,6 +8,7 @@ use super::entry::{CORNER, Entry, NO_COST, NONE, TO_COME, value_text};
 use crate::app::laboratory::paint_marker;
 use crate::app::model::Model;
 use crate::app::numbers::significant;
+use crate::app::state::MOST_COMPARED;
 use crate::app::theme;
 use crate::lab::metrics::CORNER_BOUND;
 use crate::lab::ranking::Criterion;
@@ -120,7 +121,8 @@ pub fn compare_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>], size: V
                 let Some(value) = entry.value(criterion) else {
                     continue;
                 };
-                let at = pos2(line.left() + line.width() * axis.share(value, 0.0), y);
+                let x = line.left() + line.width() * axis.share(value, 0.0);
+                let at = pos2(x, y + lane(k, chosen.len(), height));
                 paint_marker(&painter, at, SHAPES[k % SHAPES.len()], theme::SERIES[k]);
             }
         } else if criterion == Criterion::Cost {
@@ -151,6 +153,13 @@ pub fn compare_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>], size: V
     }
 }
 
+/// How far below a criterion's line the marks of one of `count` mappings lie: each in a lane of its own, so that equal values do not cover each other.
+fn lane(k: usize, count: usize, height: f32) -> f32 {
+    /// Share of the height between the lines of two criteria that all lanes take.
+    const LANES: f32 = 0.6;
+    (k as f32 + 0.5 - 0.5 * count as f32) * LANES * height / MOST_COMPARED as f32
+}
+
 /// The chosen mappings' values, with all that belongs to them.
 fn whole_text(chosen: &[&Entry<'_>], criterion: Criterion) -> String {
     let all: Vec<String> = chosen.iter().map(|entry| entry.text(criterion)).collect();
@@ -176,4 +185,19 @@ fn legend_ui(ui: &mut Ui, chosen: &[&Entry<'_>]) {
             ui.colored_label(color, entry.map.info().id);
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_values_lie_beside_each_other_within_their_line() {
+        for count in 1..=MOST_COMPARED {
+            let lanes: Vec<f32> = (0..count).map(|k| lane(k, count, 20.0)).collect();
+            assert!(lanes.windows(2).all(|pair| pair[1] - pair[0] > 2.5));
+            assert!(lanes.iter().all(|y| y.abs() < 10.0), "{lanes:?}");
+            assert!(lanes.iter().sum::<f32>().abs() < 1e-4, "around the line");
+        }
+    }
 }

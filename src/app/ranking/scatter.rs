@@ -91,9 +91,11 @@ pub fn scatter_ui(ui: &mut Ui, model: &mut Model<'_>, entries: &[Entry<'_>], siz
             on_front: *is_on,
         })
         .collect();
-    paint_corner(ui.painter(), frame, &across, &up);
+    let mut lines = paint_corner(ui.painter(), frame, &across, &up);
+    let front_lines = stair.windows(2);
+    lines.extend(front_lines.map(|pair| Rect::from_two_pos(pair[0], pair[1]).expand(1.0)));
     points_ui(ui, model, &points);
-    paint_names(ui.painter(), frame, &points);
+    paint_names(ui.painter(), frame, &points, lines);
     let missing = entries.len() - points.len();
     if missing > 0 {
         let text = match chosen.contains(&Criterion::Cost) {
@@ -177,8 +179,9 @@ fn paint_axes(painter: &Painter, frame: Rect, across: &Axis, up: &Axis) {
     painter.add(turned.with_angle(-std::f32::consts::FRAC_PI_2));
 }
 
-/// The least a/b of what is smooth at a cube's corner, where the largest a/b is an axis.
-fn paint_corner(painter: &Painter, frame: Rect, across: &Axis, up: &Axis) {
+/// The least a/b of what is smooth at a cube's corner, where the largest a/b is an axis; what the line and its words cover.
+fn paint_corner(painter: &Painter, frame: Rect, across: &Axis, up: &Axis) -> Vec<Rect> {
+    let mut covered = Vec::new();
     const TEXT: &str = "√3: no mapping that is smooth at a cube's corner is below";
     let font = FontId::proportional(LETTER);
     let stroke = Stroke::new(1.0, theme::TEXEL);
@@ -188,16 +191,23 @@ fn paint_corner(painter: &Painter, frame: Rect, across: &Axis, up: &Axis) {
         let y = frame.bottom() - frame.height() * up.share(CORNER_BOUND, MARGIN);
         painter.hline(frame.x_range(), y, stroke);
         let at = pos2(frame.right() - 4.0, y + 1.0);
-        painter.text(at, Align2::RIGHT_TOP, TEXT, font.clone(), theme::TEXEL);
+        let words = painter.text(at, Align2::RIGHT_TOP, TEXT, font.clone(), theme::TEXEL);
+        let line = Rect::from_x_y_ranges(frame.x_range(), y - 1.0..=y + 1.0);
+        covered.extend([words, line]);
     }
     if is_shown(across) {
         let x = frame.left() + frame.width() * across.share(CORNER_BOUND, MARGIN);
         painter.vline(x, frame.y_range(), stroke);
         let galley = painter.layout_no_wrap(TEXT.to_owned(), font, theme::TEXEL);
         let at = pos2(x + 2.0 + galley.size().y, frame.top() + 4.0);
+        let words = vec2(galley.size().y + 3.0, galley.size().x);
+        covered.push(Rect::from_min_size(pos2(x, frame.top() + 4.0), words));
+        let line = Rect::from_x_y_ranges(x - 1.0..=x + 1.0, frame.y_range());
+        covered.push(line);
         let turned = egui::epaint::TextShape::new(at, galley, theme::TEXEL);
         painter.add(turned.with_angle(std::f32::consts::FRAC_PI_2));
     }
+    covered
 }
 
 /// The points: all that is known of a mapping under the pointer, a click opens it.
@@ -231,12 +241,11 @@ fn points_ui(ui: &mut Ui, model: &mut Model<'_>, points: &[Point<'_>]) {
     }
 }
 
-/// Names of the front's points, then of the others, each where it covers no point and no other name.
-fn paint_names(painter: &Painter, frame: Rect, points: &[Point<'_>]) {
-    let mut taken: Vec<Rect> = points
-        .iter()
-        .map(|point| Rect::from_center_size(point.at, Vec2::splat(8.0)))
-        .collect();
+/// Names of the front's points, then of the others, each where it covers no point, no line and no other name.
+fn paint_names(painter: &Painter, frame: Rect, points: &[Point<'_>], lines: Vec<Rect>) {
+    let mut taken = lines;
+    let marks = points.iter().map(|point| point.at);
+    taken.extend(marks.map(|at| Rect::from_center_size(at, Vec2::splat(8.0))));
     for is_on in [true, false] {
         for point in points.iter().filter(|point| point.on_front == is_on) {
             let info = point.entry.map.info();
