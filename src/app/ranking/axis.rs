@@ -109,7 +109,7 @@ mod tests {
         let two = Axis::over(Criterion::Area, &entries[..2]).unwrap();
         assert!(!two.has_unbounded && two.border().is_none(), "control");
         assert_eq!(two.share(two.ends[1], 0.0), 1.0);
-        assert!(two.contains(2.0) && !two.contains(0.9) && !two.contains(6.0));
+        assert!(two.contains(4.5) && !two.contains(2.0) && !two.contains(6.0));
         // The cube's corner is the end of an axis to the last digit but one.
         let shape = Axis::over(Criterion::ShapeMax, &entries[..2]).unwrap();
         assert!(shape.contains(CORNER_BOUND * (1.0 + 1e-15)));

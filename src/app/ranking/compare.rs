@@ -8,7 +8,6 @@ use super::entry::{CORNER, Entry, NO_COST, NONE, TO_COME, value_text};
 use crate::app::laboratory::paint_marker;
 use crate::app::model::Model;
 use crate::app::numbers::significant;
-use crate::app::state::MOST_COMPARED;
 use crate::app::theme;
 use crate::lab::metrics::CORNER_BOUND;
 use crate::lab::ranking::Criterion;
@@ -112,18 +111,21 @@ pub fn compare_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>], size: V
                 let x = line.left() + line.width() * axis.share(CORNER_BOUND, 0.0);
                 let half = 0.5 * height;
                 painter.vline(x, y - half..=y + half, Stroke::new(1.5, theme::TEXEL));
-                let at = pos2(x + 3.0, y - 0.5 * half);
+                let at = pos2(x + 7.0, y - 0.5 * half);
                 let font = FontId::proportional(LETTER - 2.0);
                 painter.text(at, Align2::LEFT_CENTER, "√3", font, theme::TEXEL);
                 hint += &format!("\n{CORNER}");
             }
-            for (k, entry) in chosen.iter().enumerate().rev() {
-                let Some(value) = entry.value(criterion) else {
-                    continue;
-                };
-                let x = line.left() + line.width() * axis.share(value, 0.0);
-                let at = pos2(x, y + lane(k, chosen.len(), height));
-                paint_marker(&painter, at, SHAPES[k % SHAPES.len()], theme::SERIES[k]);
+            let place = |entry: &&Entry<'_>| {
+                let share = axis.share(entry.value(criterion)?, 0.0);
+                Some(line.left() + line.width() * share)
+            };
+            let places: Vec<Option<f32>> = chosen.iter().map(place).collect();
+            for (k, x) in places.iter().enumerate().rev() {
+                if let Some(x) = *x {
+                    let at = pos2(x, y + lane(k, &places, height));
+                    paint_marker(&painter, at, SHAPES[k % SHAPES.len()], theme::SERIES[k]);
+                }
             }
         } else if criterion == Criterion::Cost {
             hint += &format!("\n{NO_COST}");
@@ -153,11 +155,22 @@ pub fn compare_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>], size: V
     }
 }
 
-/// How far below a criterion's line the marks of one of `count` mappings lie: each in a lane of its own, so that equal values do not cover each other.
-fn lane(k: usize, count: usize, height: f32) -> f32 {
-    /// Share of the height between the lines of two criteria that all lanes take.
-    const LANES: f32 = 0.6;
-    (k as f32 + 0.5 - 0.5 * count as f32) * LANES * height / MOST_COMPARED as f32
+/// How far below a criterion's line one of the marks at these places lies: those that would cover each other get a lane each, the
+/// others lie on the line.
+fn lane(k: usize, places: &[Option<f32>], height: f32) -> f32 {
+    /// Width and height of a mark, and the share of the height between two lines that lanes take.
+    const MARK: f32 = 9.0;
+    const LANES: f32 = 0.85;
+    let covers = |other: &Option<f32>| {
+        let pair = places[k].zip(*other);
+        pair.is_some_and(|(own, other)| (own - other).abs() < MARK)
+    };
+    let before = places[..k].iter().filter(|other| covers(other)).count() as f32;
+    let count = places.iter().filter(|other| covers(other)).count() as f32;
+    // Both end marks stay within the lanes where there is room.
+    let room = (LANES * height - 0.5 * MARK).max(0.0);
+    let step = MARK.min(room / (count - 1.0).max(1.0));
+    (before - 0.5 * (count - 1.0).max(0.0)) * step
 }
 
 /// The chosen mappings' values, with all that belongs to them.
@@ -192,12 +205,27 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_values_lie_beside_each_other_within_their_line() {
-        for count in 1..=MOST_COMPARED {
-            let lanes: Vec<f32> = (0..count).map(|k| lane(k, count, 20.0)).collect();
-            assert!(lanes.windows(2).all(|pair| pair[1] - pair[0] > 2.5));
-            assert!(lanes.iter().all(|y| y.abs() < 10.0), "{lanes:?}");
-            assert!(lanes.iter().sum::<f32>().abs() < 1e-4, "around the line");
-        }
+    fn marks_that_would_cover_each_other_get_lanes_and_the_others_lie_on_the_line() {
+        let lanes = |places: &[Option<f32>], height: f32| -> Vec<f32> {
+            (0..places.len()).map(|k| lane(k, places, height)).collect()
+        };
+        assert_eq!(
+            lanes(&[Some(0.0), Some(50.0), None, Some(90.0)], 20.0),
+            [0.0; 4]
+        );
+        // Two have room for the whole of both, four show a part of each; all within the line's height.
+        assert_eq!(
+            lanes(&[Some(1.0), Some(50.0), Some(2.0)], 20.0),
+            [-4.5, 0.0, 4.5]
+        );
+        let four = lanes(&[Some(7.0); 4], 20.0);
+        assert!(
+            four.windows(2).all(|pair| pair[1] - pair[0] > 4.0),
+            "{four:?}"
+        );
+        assert!(four.iter().all(|y| y.abs() < 10.0) && four.iter().sum::<f32>().abs() < 1e-4);
+        // A chain, whose ends do not cover each other.
+        let chain = lanes(&[Some(0.0), Some(8.0), Some(16.0)], 20.0);
+        assert!(chain.is_sorted_by(|a, b| a < b), "{chain:?}");
     }
 }
