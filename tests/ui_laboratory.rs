@@ -25,7 +25,9 @@ use sixfold::lab::inputs::Inputs;
 use sixfold::lab::machine::Machine;
 use sixfold::mapping::{MappingId, NoDevice};
 use sixfold::math::{Vec3, angle_rad};
-use window_kit::{Ui, WINDOW_SIZES, open, open_sized, probe, rests, run, settle, small};
+use window_kit::{
+    Ui, WINDOW_SIZES, middle_end, open, open_sized, probe, rests, run, settle, small, texts,
+};
 
 const JOB: &str = "run time and error";
 
@@ -95,16 +97,6 @@ fn state(ui: &Ui) -> &AppState {
 
 fn rows(ui: &Ui) -> &[Row] {
     ui.state().explorer().labs().bench.rows()
-}
-
-/// Every text in the window.
-fn texts(ui: &Ui) -> Vec<String> {
-    let all = ui.query_all_by(|node| node.label().is_some() || node.value().is_some());
-    let text = |node: egui_kittest::Node<'_>| {
-        let node = node.accesskit_node();
-        node.label().or(node.value()).unwrap_or_default()
-    };
-    all.map(text).collect()
 }
 
 /// The points of the plot, as they are called.
@@ -546,8 +538,7 @@ fn nothing_is_clipped_or_fails_when_tiny() {
                 continue;
             }
             // What does not scroll lies in the window, beside the inspector.
-            let inspector = ui.query_by_label("follows the pointer");
-            let inspector = inspector.map_or(width, |node| node.rect().left());
+            let inspector = middle_end(&ui, width);
             for label in [
                 "Measure",
                 "carefully",

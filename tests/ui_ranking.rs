@@ -30,7 +30,9 @@ use sixfold::lab::devices::Devices;
 use sixfold::lab::machine::Machine;
 use sixfold::lab::ranking::Criterion;
 use sixfold::mapping::{Family, MappingId, NoDevice};
-use window_kit::{Ui, WINDOW_SIZES, open, open_sized, rests, run, settle, small};
+use window_kit::{
+    Ui, WINDOW_SIZES, click_at, middle_end, open, open_sized, rests, run, settle, small, texts,
+};
 
 /// The pane alone, with all the width there is.
 fn alone(ranking: RankingState) -> AppState {
@@ -80,16 +82,6 @@ fn show(ui: &mut Ui) {
     ui.state_mut().explorer_mut().run(&ctx, load);
 }
 
-/// Every text in the window.
-fn texts(ui: &Ui) -> Vec<String> {
-    let all = ui.query_all_by(|node| node.label().is_some() || node.value().is_some());
-    let text = |node: egui_kittest::Node<'_>| {
-        let node = node.accesskit_node();
-        node.label().or(node.value()).unwrap_or_default()
-    };
-    all.map(text).collect()
-}
-
 /// What a cell of the table says, where it is seen.
 fn cell(ui: &Ui, map: MappingId, column: &str) -> Option<String> {
     let start = format!("{map}, {column}: ");
@@ -112,15 +104,6 @@ fn lines(ui: &Ui) -> Vec<MappingId> {
 
 fn click(ui: &mut Ui, label: &str) {
     ui.get_by_label(label).click();
-    settle(ui);
-}
-
-fn click_at(ui: &mut Ui, at: egui::Pos2) {
-    ui.hover_at(at);
-    ui.step();
-    ui.drag_at(at);
-    ui.step();
-    ui.drop_at(at);
     settle(ui);
 }
 
@@ -463,20 +446,13 @@ fn nothing_is_clipped_or_fails_when_tiny() {
                     continue;
                 }
                 // What does not scroll lies in the window, beside the inspector.
-                let inspector = ui.query_by_label("follows the pointer");
-                let inspector = inspector.map_or(width, |node| node.rect().left());
-                for label in [
-                    "area or shape",
-                    "two criteria",
-                    "compare",
-                    "rank",
-                    "that are",
-                ] {
-                    let rect = ui.query_all_by_label(label).next().unwrap().rect();
-                    assert!(
-                        rect.left() > 0.0 && rect.right() < inspector && rect.bottom() < height,
-                        "{label} in {width}: {rect:?}"
-                    );
+                let inspector = middle_end(&ui, width);
+                let fixed = RankingPlot::ALL.map(RankingPlot::name).into_iter();
+                for label in fixed.chain(["rank", "that are"]) {
+                    let node = ui.query_all_by_label(label).next().unwrap();
+                    let rect = node.rect();
+                    let is_seen = rect.left() > 0.0 && rect.right() < inspector;
+                    assert!(is_seen && rect.bottom() < height, "{label}: {rect:?}");
                 }
                 for point in ui.query_all_by_label_contains("Point: ") {
                     let rect = point.rect();

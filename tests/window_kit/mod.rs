@@ -8,7 +8,7 @@
 
 use std::time::{Duration, Instant};
 
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::{Harness, HarnessBuilder};
 use sixfold::app::command::Command;
 use sixfold::app::state::AppState;
@@ -103,6 +103,32 @@ pub fn run(ui: &mut Ui, command: impl Into<Command>) {
 
 pub fn probe(ui: &Ui) -> Vec3<f64> {
     ui.state().explorer().state().probe_f64()
+}
+
+/// A click with the pointer, after which the window comes to rest.
+pub fn click_at(ui: &mut Ui, at: egui::Pos2) {
+    ui.hover_at(at);
+    ui.step();
+    ui.drag_at(at);
+    ui.step();
+    ui.drop_at(at);
+    settle(ui);
+}
+
+/// Every text in the window.
+pub fn texts(ui: &Ui) -> Vec<String> {
+    let all = ui.query_all_by(|node| node.label().is_some() || node.value().is_some());
+    let text = |node: egui_kittest::Node<'_>| {
+        let node = node.accesskit_node();
+        node.label().or(node.value()).unwrap_or_default()
+    };
+    all.map(text).collect()
+}
+
+/// Where the inspector at the right begins, or the window ends: what is in the middle lies left of it.
+pub fn middle_end(ui: &Ui, width: f32) -> f32 {
+    let inspector = ui.query_by_label("follows the pointer");
+    inspector.map_or(width, |node| node.rect().left())
 }
 
 /// The rectangle on the screen of a panel's picture.
