@@ -8,8 +8,6 @@
 
 mod window_kit;
 
-use std::time::Duration;
-
 use egui_kittest::kittest::{NodeT, Queryable};
 use sixfold::app::action::{Action, apply};
 use sixfold::app::arrangement::Pane;
@@ -17,16 +15,14 @@ use sixfold::app::command::Command;
 use sixfold::app::laboratory::Measured;
 use sixfold::app::picture::{Destination, PictureRequest, What};
 use sixfold::app::state::{AppState, LaboratoryState, SCHEMA};
-use sixfold::imaging::Progress;
-use sixfold::lab::bench::{Plan, Row, Way, bench};
-use sixfold::lab::clock::Clock;
-use sixfold::lab::devices::Devices;
+use sixfold::lab::bench::{Row, Way};
 use sixfold::lab::inputs::Inputs;
 use sixfold::lab::machine::Machine;
-use sixfold::mapping::{MappingId, NoDevice};
+use sixfold::mapping::MappingId;
 use sixfold::math::{Vec3, angle_rad};
 use window_kit::{
-    Ui, WINDOW_SIZES, middle_end, open, open_sized, probe, rests, run, settle, small, texts,
+    Ui, WINDOW_SIZES, measured_with, middle_end, open, open_sized, probe, rests, run, settle,
+    small, texts,
 };
 
 const JOB: &str = "run time and error";
@@ -48,33 +44,14 @@ fn laboratory(mapping: MappingId) -> AppState {
 /// Measurements with errors that hold and times that are made up, so that they are the same on every machine: the coarser
 /// the faster, and the reference slow.
 fn measured(maps: &[MappingId]) -> Measured {
-    let plan = Plan {
-        maps: maps.to_vec(),
-        inputs: Inputs::ALL.to_vec(),
-        few: 64,
-        many: 128,
-        judged: 512,
-        clock: Clock {
-            samples: 1,
-            shortest: Duration::ZERO,
-        },
-        devices: Devices::Cpu,
-        ..Plan::full()
-    };
-    let mut rows = bench(&plan, &NoDevice("not asked"), &Progress::new()).rows;
-    for row in &mut rows {
+    measured_with(maps, |row| {
         let all = row.inputs as usize as f64 + row.isa.len() as f64;
         row.ns = 4.0 - row.max_error_texels.log10() + 0.01 * all;
         row.copy_ratio = 2.0 * row.ns;
         if row.evaluator == "reference" {
             row.ns = 90.0;
         }
-    }
-    sixfold::lab::bench::mark_front(&mut rows);
-    Measured {
-        rows,
-        machine: Machine::this(None),
-    }
+    })
 }
 
 /// A window with such measurements.

@@ -10,7 +10,6 @@ mod window_kit;
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
 
 use egui_kittest::kittest::{NodeT, Queryable};
 use sixfold::app::action::{Action, apply};
@@ -24,14 +23,11 @@ use sixfold::app::state::{
 };
 use sixfold::gpu::Gpu;
 use sixfold::imaging::Progress;
-use sixfold::lab::bench::{Plan, bench};
-use sixfold::lab::clock::Clock;
-use sixfold::lab::devices::Devices;
-use sixfold::lab::machine::Machine;
 use sixfold::lab::ranking::Criterion;
-use sixfold::mapping::{Family, MappingId, NoDevice};
+use sixfold::mapping::{Family, MappingId};
 use window_kit::{
-    Ui, WINDOW_SIZES, click_at, middle_end, open, open_sized, rests, run, settle, small, texts,
+    Ui, WINDOW_SIZES, click_at, measured_with, middle_end, open, open_sized, rests, run, settle,
+    small, texts,
 };
 
 /// The pane alone, with all the width there is.
@@ -117,28 +113,9 @@ fn points(ui: &Ui) -> usize {
     ui.query_all_by_label_contains("Point: ").count()
 }
 
-/// Times that are made up, so that they are the same on every machine, with errors that hold.
+/// The coarser the faster.
 fn measured(maps: &[MappingId]) -> Measured {
-    let plan = Plan {
-        maps: maps.to_vec(),
-        few: 64,
-        many: 128,
-        judged: 512,
-        clock: Clock {
-            samples: 1,
-            shortest: Duration::ZERO,
-        },
-        devices: Devices::Cpu,
-        ..Plan::quick()
-    };
-    let mut rows = bench(&plan, &NoDevice("not asked"), &Progress::new()).rows;
-    for row in &mut rows {
-        row.ns = 4.0 - row.max_error_texels.log10();
-    }
-    Measured {
-        rows,
-        machine: Machine::this(None),
-    }
+    measured_with(maps, |row| row.ns = 4.0 - row.max_error_texels.log10())
 }
 
 #[test]
