@@ -8,8 +8,6 @@
 
 mod window_kit;
 
-use std::time::Duration;
-
 use egui_kittest::kittest::{NodeT, Queryable};
 use sixfold::app::action::{Action, apply};
 use sixfold::app::arrangement::Pane;
@@ -17,15 +15,15 @@ use sixfold::app::command::Command;
 use sixfold::app::laboratory::Measured;
 use sixfold::app::picture::{Destination, PictureRequest, What};
 use sixfold::app::state::{AppState, LaboratoryState, SCHEMA};
-use sixfold::imaging::Progress;
-use sixfold::lab::bench::{Plan, Row, Way, bench};
-use sixfold::lab::clock::Clock;
-use sixfold::lab::devices::Devices;
+use sixfold::lab::bench::{Row, Way};
 use sixfold::lab::inputs::Inputs;
 use sixfold::lab::machine::Machine;
-use sixfold::mapping::{MappingId, NoDevice};
+use sixfold::mapping::MappingId;
 use sixfold::math::{Vec3, angle_rad};
-use window_kit::{Ui, WINDOW_SIZES, open, open_sized, probe, rests, run, settle, small};
+use window_kit::{
+    Ui, WINDOW_SIZES, measured_with, middle_end, open, open_sized, probe, rests, run, settle,
+    small, texts,
+};
 
 const JOB: &str = "run time and error";
 
@@ -46,33 +44,14 @@ fn laboratory(mapping: MappingId) -> AppState {
 /// Measurements with errors that hold and times that are made up, so that they are the same on every machine: the coarser
 /// the faster, and the reference slow.
 fn measured(maps: &[MappingId]) -> Measured {
-    let plan = Plan {
-        maps: maps.to_vec(),
-        inputs: Inputs::ALL.to_vec(),
-        few: 64,
-        many: 128,
-        judged: 512,
-        clock: Clock {
-            samples: 1,
-            shortest: Duration::ZERO,
-        },
-        devices: Devices::Cpu,
-        ..Plan::full()
-    };
-    let mut rows = bench(&plan, &NoDevice("not asked"), &Progress::new()).rows;
-    for row in &mut rows {
+    measured_with(maps, |row| {
         let all = row.inputs as usize as f64 + row.isa.len() as f64;
         row.ns = 4.0 - row.max_error_texels.log10() + 0.01 * all;
         row.copy_ratio = 2.0 * row.ns;
         if row.evaluator == "reference" {
             row.ns = 90.0;
         }
-    }
-    sixfold::lab::bench::mark_front(&mut rows);
-    Measured {
-        rows,
-        machine: Machine::this(None),
-    }
+    })
 }
 
 /// A window with such measurements.
@@ -95,16 +74,6 @@ fn state(ui: &Ui) -> &AppState {
 
 fn rows(ui: &Ui) -> &[Row] {
     ui.state().explorer().labs().bench.rows()
-}
-
-/// Every text in the window.
-fn texts(ui: &Ui) -> Vec<String> {
-    let all = ui.query_all_by(|node| node.label().is_some() || node.value().is_some());
-    let text = |node: egui_kittest::Node<'_>| {
-        let node = node.accesskit_node();
-        node.label().or(node.value()).unwrap_or_default()
-    };
-    all.map(text).collect()
 }
 
 /// The points of the plot, as they are called.
@@ -546,8 +515,7 @@ fn nothing_is_clipped_or_fails_when_tiny() {
                 continue;
             }
             // What does not scroll lies in the window, beside the inspector.
-            let inspector = ui.query_by_label("follows the pointer");
-            let inspector = inspector.map_or(width, |node| node.rect().left());
+            let inspector = middle_end(&ui, width);
             for label in [
                 "Measure",
                 "carefully",

@@ -19,7 +19,7 @@ use sixfold::imaging::resample::Filter;
 use sixfold::imaging::{Environment, Samples};
 use sixfold::mapping::{ChartPoint, MappingId};
 use sixfold::math::{Rotation, Vec3, angle_rad};
-use window_kit::{Ui, WINDOW_SIZES, open, probe, run, settle, small};
+use window_kit::{Ui, WINDOW_SIZES, click_at, open, probe, run, settle, small};
 
 /// Small maps with the laboratory shown; lines and letters lose something.
 fn laboratory(loss: LossState) -> AppState {
@@ -108,15 +108,7 @@ fn a_click_on_the_residual_moves_the_probe_there_and_near_the_ring_onto_the_wors
     }));
     let worst = shown(&ui).measured.loss.difference.worst;
     let at = place(&ui, Vec3::from_f64(worst.dir));
-    let click = |ui: &mut Ui, at: egui::Pos2| {
-        ui.hover_at(at);
-        ui.step();
-        ui.drag_at(at);
-        ui.step();
-        ui.drop_at(at);
-        settle(ui);
-    };
-    click(&mut ui, at + egui::vec2(3.0, 2.0));
+    click_at(&mut ui, at + egui::vec2(3.0, 2.0));
     assert!(texels_off(&ui, worst.dir) < 1e-3);
     // Elsewhere: the middle of a face, which is not the worst texel's.
     let elsewhere = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
@@ -125,7 +117,7 @@ fn a_click_on_the_residual_moves_the_probe_there_and_near_the_ring_onto_the_wors
         .unwrap();
     let at = place(&ui, Vec3::from_f64(elsewhere));
     let before = ui.render().unwrap();
-    click(&mut ui, at);
+    click_at(&mut ui, at);
     assert!(texels_off(&ui, elsewhere) < 1.0);
     assert!(texels_off(&ui, worst.dir) > 5.0, "control");
     // The ring of the probe's mark lies around the place on the residual, and did not before.

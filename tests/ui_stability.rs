@@ -21,7 +21,7 @@ use sixfold::lab::stress::places::PLACES;
 use sixfold::lab::stress::{Family, Measure, Standing};
 use sixfold::mapping::MappingId;
 use sixfold::math::{Vec3, angle_rad};
-use window_kit::{Ui, WINDOW_SIZES, open, probe, run, settle, small};
+use window_kit::{Ui, WINDOW_SIZES, click_at, open, probe, run, settle, small};
 
 /// The pane alone, on a mapping with few evaluators.
 fn pane(stability: StabilityState) -> AppState {
@@ -52,15 +52,6 @@ fn state(ui: &Ui) -> &StabilityState {
 
 fn microscope(ui: &Ui) -> egui::Rect {
     ui.get_by_label("Microscope").rect()
-}
-
-fn click(ui: &mut Ui, at: egui::Pos2) {
-    ui.hover_at(at);
-    ui.step();
-    ui.drag_at(at);
-    ui.step();
-    ui.drop_at(at);
-    settle(ui);
 }
 
 #[test]
@@ -198,7 +189,7 @@ fn the_wheel_zooms_at_the_pointer_and_a_drag_pans() {
     assert_eq!(state(&ui).span_deg, nearer);
     // A click puts the probe there.
     let place = rect.center() + egui::vec2(-50.0, 20.0);
-    click(&mut ui, place);
+    click_at(&mut ui, place);
     let found = angle_rad(probe(&ui).to_f64(), state(&ui).center);
     let away = 2900f64.sqrt() / points * pitch;
     // The probe is f32.

@@ -247,6 +247,7 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
                     What::Microscope,
                     What::Fold,
                     What::Budget,
+                    What::Ranking,
                 ];
                 for what in first.into_iter().chain(maps) {
                     ui.selectable_value(&mut fields.what, what, what.name());

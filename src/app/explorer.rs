@@ -241,6 +241,7 @@ impl Explorer {
             picture::What::Budget => {
                 super::budget_panel::pictures_ui(ui, model);
             }
+            picture::What::Ranking => panes::pane_ui(ui, model, Pane::Ranking),
             picture::What::Window => {}
         });
         let ctx = ui.ctx().clone();
@@ -249,6 +250,7 @@ impl Explorer {
         self.paint_heat(&ctx);
         self.light_fold(&ctx);
         self.compare_budget(&ctx);
+        self.rank(&ctx);
     }
 
     /// Runs `show` on a model of what there is; gives back what was asked for and what was laid out.

@@ -110,7 +110,8 @@ pub fn panes_ui(ui: &mut egui::Ui, model: &mut Model<'_>, tree: &mut Tree<Pane>)
     tree.ui(&mut PaneBehavior { model }, ui);
 }
 
-fn pane_ui(ui: &mut egui::Ui, model: &mut Model<'_>, pane: Pane) {
+/// Shows what a pane holds.
+pub(super) fn pane_ui(ui: &mut egui::Ui, model: &mut Model<'_>, pane: Pane) {
     model.seen.push(pane);
     match pane {
         Pane::Viewport => viewport::viewport_ui(ui, model),

@@ -28,6 +28,8 @@ pub enum What {
     Fold,
     /// The pictures of the equal texel budget.
     Budget,
+    /// The pane that ranks all mappings.
+    Ranking,
 }
 
 impl What {
@@ -39,6 +41,7 @@ impl What {
             Self::Microscope => "the microscope".to_owned(),
             Self::Fold => "the folded map".to_owned(),
             Self::Budget => "the equal texel budget".to_owned(),
+            Self::Ranking => "the ranking".to_owned(),
             Self::Panel(mapping) => format!("the panel {}", mapping.info().name),
         }
     }

@@ -33,7 +33,7 @@ pub use form::FormState;
 pub use laboratory::{BUDGET_TEXELS, Column, LaboratoryState};
 pub use loss::{LOSS_ROWS, LossState, MOST_MAGNIFIED};
 pub use optics::{CurvesState, StoryKind, StoryState};
-pub use ranking::{MOST_COMPARED, RankingColumn, RankingPlot, RankingState};
+pub use ranking::{Claim, MOST_COMPARED, RankingColumn, RankingPlot, RankingState};
 pub use stability::{LENGTHS, StabilityState};
 pub use views::{InspectorState, Overlays, PanelState, Precision, ZOOM_RANGE};
 

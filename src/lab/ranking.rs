@@ -3,12 +3,16 @@
 //! Distortions are ratios: twice as large and half as large are equally far from even, and two in a row multiply. So they are compared, weighed and drawn
 //! by their logarithms, in which ratios become distances and perfection is 0.
 
+mod score;
+
 use std::cmp::Ordering;
 
 use serde::{Deserialize, Serialize};
 
+use super::front::on_front;
 use super::metrics::{Metrics, omega_rad};
-use crate::mapping::MappingId;
+
+pub use score::{Basis, Placed, bounded, bump, order, winners};
 
 /// What mappings can be compared by. Of each, smaller is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -158,6 +162,20 @@ impl Criterion {
         }
     }
 
+    /// Whether a value has a bound; an error of angles has none at 180 degrees.
+    pub fn is_bounded(self, value: f64) -> bool {
+        self.place(value) < UNBOUNDED_PLACE
+    }
+
+    /// A value's place in whole steps of what can be told apart, to be compared; infinite without bound.
+    pub fn rank(self, value: f64) -> f64 {
+        if self.is_bounded(value) {
+            steps(self.place(value))
+        } else {
+            f64::INFINITY
+        }
+    }
+
     /// Values from `low` to `high`, about six, at which an axis is marked: in even steps where they are within a decade, else 1, 2 and 5 times the powers of ten.
     pub fn marks(self, [low, high]: [f64; 2]) -> Vec<f64> {
         const WANTED: f64 = 6.0;
@@ -195,67 +213,7 @@ pub fn compare(a: Option<f64>, b: Option<f64>, descending: bool) -> Ordering {
     }
 }
 
-/// What of area and shape is weighed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Basis {
-    /// The extremes: area max/min and the largest a/b.
-    #[default]
-    Worst,
-    /// What all texels come to: 1 + RMS of the area's error, and the mean a/b.
-    Mean,
-}
-
-impl Basis {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Worst, Self::Mean];
-
-    /// Its name for people.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Worst => "the worst texels",
-            Self::Mean => "all texels",
-        }
-    }
-
-    /// The criteria of area and of shape.
-    pub const fn criteria(self) -> [Criterion; 2] {
-        match self {
-            Self::Worst => [Criterion::Area, Criterion::ShapeMax],
-            Self::Mean => [Criterion::AreaRms, Criterion::ShapeMean],
-        }
-    }
-
-    /// Logarithms of the ratios of area and of shape: 0 where there is no distortion, infinite where there is no bound.
-    fn logarithms(self, metrics: &Metrics) -> [f64; 2] {
-        self.criteria().map(|criterion| {
-            criterion
-                .of(metrics, None)
-                .map_or(f64::INFINITY, |value| criterion.place(value))
-        })
-    }
-
-    /// (1 - w) ln(area) + w ln(shape): the logarithm of a weighed geometric mean of both ratios, so that it does not matter in which unit either
-    /// is given. Infinite where what counts has no bound; what does not count at all, its weight being 0, does not even then.
-    pub fn score(self, metrics: &Metrics, weight: f64) -> f64 {
-        let [area, shape] = self.logarithms(metrics);
-        let part = |share: f64, log: f64| if share > 0.0 { share * log } else { 0.0 };
-        part(1.0 - weight, area) + part(weight, shape)
-    }
-}
-
-/// A mapping in an order.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placed {
-    /// The mapping.
-    pub map: MappingId,
-    /// Its score; see [`Basis::score`].
-    pub score: f64,
-    /// Its place, from 1; what is equally good has the same.
-    pub place: usize,
-}
-
-/// Scores as near as this are equal: the search for the extremes ends as near to them.
+/// Logarithms as near as this are equal: the search for the extremes ends as near to them.
 const EQUAL: f64 = 1e-6;
 
 /// A logarithm in steps of [`EQUAL`], which can be compared without regard to the last digits of a search.
@@ -263,75 +221,14 @@ fn steps(log: f64) -> f64 {
     (log / EQUAL).round()
 }
 
-/// The mappings by their score at a weight of shape from 0 (area alone) to 1 (shape alone), the best first. Of those that are equal the one stands first that is
-/// better with both weighed alike, then the one that comes first in `measured`.
-pub fn order(measured: &[&Metrics], basis: Basis, weight: f64) -> Vec<Placed> {
-    let score = |metrics: &Metrics| basis.score(metrics, weight);
-    let key = |metrics: &Metrics| [score(metrics), basis.score(metrics, 0.5)].map(steps);
-    let mut sorted: Vec<&Metrics> = measured.to_vec();
-    sorted.sort_by(|a, b| {
-        let ([a, a_both], [b, b_both]) = (key(a), key(b));
-        a.total_cmp(&b).then(a_both.total_cmp(&b_both))
-    });
-    let mut placed: Vec<Placed> = Vec::with_capacity(sorted.len());
-    for metrics in sorted {
-        let score = score(metrics);
-        let before = placed.last().filter(|p| steps(p.score) == steps(score));
-        let place = before.map_or(placed.len() + 1, |before| before.place);
-        placed.push(Placed {
-            map: metrics.mapping,
-            score,
-            place,
-        });
-    }
-    placed
-}
+/// A ratio of e to this power is none any more: an angle off by 180 degrees less what f64 can tell apart has 37.
+const UNBOUNDED_PLACE: f64 = 30.0;
 
-/// Those of which area and shape have a bound, so that no weight puts them last.
-pub fn bounded<'a>(measured: &[&'a Metrics], basis: Basis) -> Vec<&'a Metrics> {
-    let is_bounded = |metrics: &&&Metrics| basis.score(metrics, 0.5).is_finite();
-    measured.iter().filter(is_bounded).copied().collect()
-}
-
-/// For each of `measured` its index in the order, from 0, at `count` weights evenly from 0 to 1.
-pub fn bump(measured: &[&Metrics], basis: Basis, count: usize) -> Vec<(MappingId, Vec<usize>)> {
-    let last = count.saturating_sub(1).max(1) as f64;
-    let orders: Vec<Vec<Placed>> = (0..count)
-        .map(|k| order(measured, basis, k as f64 / last))
-        .collect();
-    let place = |map: MappingId, order: &[Placed]| order.iter().position(|p| p.map == map);
-    let line = |metrics: &&Metrics| {
-        let map = metrics.mapping;
-        (map, orders.iter().filter_map(|o| place(map, o)).collect())
-    };
-    measured.iter().map(line).collect()
-}
-
-/// Which mapping is best from which weight on, exactly: the lower envelope of the scores, which are straight lines over the weight.
-pub fn winners(measured: &[&Metrics], basis: Basis) -> Vec<(f64, MappingId)> {
-    let lines: Vec<(MappingId, [f64; 2])> = bounded(measured, basis)
-        .into_iter()
-        .map(|metrics| (metrics.mapping, basis.logarithms(metrics)))
-        .collect();
-    let first = order(&bounded(measured, basis), basis, 0.0);
-    let mut winners: Vec<(f64, MappingId)> = Vec::new();
-    let mut now = first.first().map(|placed| (0.0, placed.map));
-    while let Some((from, map)) = now {
-        winners.push((from, map));
-        let Some((_, [area, shape])) = lines.iter().find(|line| line.0 == map) else {
-            break;
-        };
-        // What falls more steeply crosses where (1 - w) (area' - area) = w (shape - shape').
-        let crossing = |(other, [a, s]): &(MappingId, [f64; 2])| {
-            let (behind, ahead) = (a - area, shape - s);
-            let is_steeper = ahead + behind > EQUAL && ahead > EQUAL;
-            is_steeper.then(|| ((behind / (behind + ahead)).max(from), *other, ahead))
-        };
-        let next = lines.iter().filter_map(crossing);
-        let next = next.min_by(|a, b| a.0.total_cmp(&b.0).then(b.2.total_cmp(&a.2)));
-        now = next.map(|(weight, other, _)| (weight, other));
-    }
-    winners
+/// Which mappings nothing beats in both criteria, by their values. What only the last digits of a search tell apart counts as equal, or noise
+/// would decide among those that are equal-area. What has no bound in one of both is not on the front.
+pub fn front(criteria: [Criterion; 2], values: &[[f64; 2]]) -> Vec<bool> {
+    let rank = |[x, y]: &[f64; 2]| (criteria[0].rank(*x), criteria[1].rank(*y));
+    on_front(&values.iter().map(rank).collect::<Vec<_>>())
 }
 
 #[cfg(test)]
@@ -339,100 +236,7 @@ mod tests {
     use super::*;
     use crate::imaging::Progress;
     use crate::lab::metrics::measure;
-
-    fn metrics(map: MappingId, area_ratio: f64, anisotropy_max: f64) -> Metrics {
-        let mut metrics = measure(MappingId::Paraboloid, &Progress::new()).unwrap();
-        (metrics.mapping, metrics.area_ratio) = (map, area_ratio);
-        metrics.anisotropy_max = anisotropy_max;
-        metrics
-    }
-
-    /// Even in area, even in shape, a compromise, and one without bound in shape.
-    fn four() -> Vec<Metrics> {
-        vec![
-            metrics(MappingId::Arvo, 1.0, 2.0),
-            metrics(MappingId::Paraboloid, 4.0, 1.0),
-            metrics(MappingId::Cobe, 1.2, 1.3),
-            metrics(MappingId::Sphere, 1.0, f64::INFINITY),
-        ]
-    }
-
-    fn ids(order: &[Placed]) -> Vec<MappingId> {
-        order.iter().map(|placed| placed.map).collect()
-    }
-
-    #[test]
-    fn the_order_flips_with_the_question() {
-        use MappingId::{Arvo, Cobe, Paraboloid, Sphere};
-        let four = four();
-        let all: Vec<&Metrics> = four.iter().collect();
-        let at = |weight| ids(&order(&all, Basis::Worst, weight));
-        // Area alone does not ask for shape: two are equally good, and the one with the better shape stands first.
-        assert_eq!(at(0.0), [Arvo, Sphere, Cobe, Paraboloid]);
-        assert_eq!(at(1e-9), [Arvo, Cobe, Paraboloid, Sphere]);
-        assert_eq!(at(0.5), [Cobe, Arvo, Paraboloid, Sphere]);
-        assert_eq!(at(1.0), [Paraboloid, Cobe, Arvo, Sphere]);
-        let places: Vec<usize> = order(&all, Basis::Worst, 0.0)
-            .iter()
-            .map(|p| p.place)
-            .collect();
-        assert_eq!(places, [1, 1, 3, 4]);
-        let score = Basis::Worst.score(&four[2], 0.25);
-        assert!((score - (0.75 * 1.2_f64.ln() + 0.25 * 1.3_f64.ln())).abs() < 1e-15);
-        // Control: a plain mean of the ratios would put the paraboloid elsewhere.
-        let plain = |m: &Metrics| 0.45 * m.area_ratio + 0.55 * m.anisotropy_max;
-        let mean = |m: &Metrics| Basis::Worst.score(m, 0.55);
-        assert!(mean(&four[0]) < mean(&four[1]) && plain(&four[0]) < plain(&four[1]));
-        let double = metrics(Paraboloid, 8.0, 1.0);
-        assert!((mean(&double) - mean(&four[1]) - 0.45 * 2_f64.ln()).abs() < 1e-14);
-        assert!(plain(&double) > 1.5 * plain(&four[1]));
-        // Means are other numbers: all four have the paraboloid's here.
-        let placed = order(&all, Basis::Mean, 0.5);
-        assert!(placed.iter().all(|p| p.place == 1));
-    }
-
-    #[test]
-    fn who_wins_is_told_with_the_weight_from_which_on() {
-        use MappingId::{Arvo, Cobe, Paraboloid};
-        let four = four();
-        let all: Vec<&Metrics> = four.iter().collect();
-        let found = winners(&all, Basis::Worst);
-        let maps: Vec<MappingId> = found.iter().map(|w| w.1).collect();
-        assert_eq!(maps, [Arvo, Cobe, Paraboloid]);
-        for pair in found.windows(2) {
-            let (weight, before, after) = (pair[1].0, pair[0].1, pair[1].1);
-            let at = |weight| ids(&order(&all, Basis::Worst, weight))[0];
-            assert_eq!((at(weight - 1e-3), at(weight + 1e-3)), (before, after));
-        }
-        // Control: without the compromise there is one change, elsewhere.
-        let without: Vec<&Metrics> = all.iter().copied().filter(|m| m.mapping != Cobe).collect();
-        let found = winners(&without, Basis::Worst);
-        assert_eq!(
-            found.iter().map(|w| w.1).collect::<Vec<_>>(),
-            [Arvo, Paraboloid]
-        );
-        assert!((found[1].0 - 2.0 / 3.0).abs() < 1e-12, "4^(1 - w) = 2^w");
-        assert_eq!(winners(&[], Basis::Worst), []);
-        assert_eq!(winners(&[&four[3]], Basis::Worst), []);
-    }
-
-    #[test]
-    fn a_bump_chart_holds_each_place_once_at_every_weight() {
-        let four = four();
-        let all: Vec<&Metrics> = four.iter().collect();
-        let lines = bump(&all, Basis::Worst, 21);
-        for k in 0..21 {
-            let mut places: Vec<usize> = lines.iter().map(|line| line.1[k]).collect();
-            places.sort_unstable();
-            assert_eq!(places, [0, 1, 2, 3]);
-        }
-        let paraboloid = &lines[1].1;
-        assert!(paraboloid.is_sorted_by(|a, b| a >= b) && paraboloid[0] == 3);
-        assert_eq!(paraboloid[20], 0);
-        assert!(!lines[0].1.is_sorted_by(|a, b| a >= b), "control");
-        assert_eq!(bounded(&all, Basis::Worst).len(), 3);
-        assert_eq!(bump(&all, Basis::Worst, 1)[0].1.len(), 1);
-    }
+    use crate::mapping::MappingId;
 
     #[test]
     fn unbounded_comes_last_either_way_and_unknown_after_it() {
@@ -491,5 +295,36 @@ mod tests {
             assert!(!values[..k].contains(value), "{:?}", Criterion::ALL[k]);
         }
         assert_eq!(Criterion::Cost.of(&metrics, None), None);
+    }
+
+    #[test]
+    fn what_only_a_search_tells_apart_does_not_decide_the_front() {
+        let axes = [Criterion::Area, Criterion::ShapeMax];
+        let noise = 2e-15;
+        let infinite = f64::INFINITY;
+        let values = [
+            [1.0 + noise, 1.557],
+            [1.0, 2.998],
+            [4.0, 1.0 + 3e-8],
+            [134.0, 1.0],
+            [1.0, infinite],
+            [1.3, 1.4],
+        ];
+        let front = front(axes, &values);
+        assert_eq!(front, [true, false, true, false, false, true]);
+        // Control: by the bare numbers noise puts the second and the fourth there.
+        let bare = on_front(&values.map(|[x, y]| (x, y)));
+        assert!(bare[1] && bare[3]);
+        // What is told apart counts.
+        assert!(super::front(axes, &[[1.0 + 1e-5, 1.5], [1.0, 3.0]])[1]);
+        // 180 degrees are no bound, and in the order they come last both ways.
+        let omega = Criterion::OmegaMax;
+        assert!(!omega.is_bounded(180.0) && omega.is_bounded(179.0));
+        assert_eq!(omega.rank(180.0), infinite);
+        assert_eq!(Criterion::ShapeMax.rank(1.0 + 1e-8), 0.0);
+        assert_eq!(
+            super::front([Criterion::Area, omega], &[[1.0, 180.0]]),
+            [false]
+        );
     }
 }

@@ -1,11 +1,11 @@
 //! The kinds of mappings, under which lists group them.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::MappingId;
 
 /// What kind of picture a mapping makes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
     /// Columns are meridians and rows parallels.

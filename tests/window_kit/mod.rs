@@ -8,14 +8,20 @@
 
 use std::time::{Duration, Instant};
 
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::{Harness, HarnessBuilder};
 use sixfold::app::command::Command;
+use sixfold::app::laboratory::Measured;
 use sixfold::app::state::AppState;
 use sixfold::app::{Lost, Window};
 use sixfold::gpu::context;
-use sixfold::imaging::Environment;
-use sixfold::mapping::MappingId;
+use sixfold::imaging::{Environment, Progress};
+use sixfold::lab::bench::{Plan, Row, bench, mark_front};
+use sixfold::lab::clock::Clock;
+use sixfold::lab::devices::Devices;
+use sixfold::lab::inputs::Inputs;
+use sixfold::lab::machine::Machine;
+use sixfold::mapping::{MappingId, NoDevice};
 use sixfold::math::Vec3;
 
 pub type Ui = Harness<'static, Window>;
@@ -103,6 +109,56 @@ pub fn run(ui: &mut Ui, command: impl Into<Command>) {
 
 pub fn probe(ui: &Ui) -> Vec3<f64> {
     ui.state().explorer().state().probe_f64()
+}
+
+/// Measurements with errors that hold and times that `time` makes up, so that they are the same on every machine.
+pub fn measured_with(maps: &[MappingId], time: impl FnMut(&mut Row)) -> Measured {
+    let plan = Plan {
+        maps: maps.to_vec(),
+        inputs: Inputs::ALL.to_vec(),
+        few: 64,
+        many: 128,
+        judged: 512,
+        clock: Clock {
+            samples: 1,
+            shortest: Duration::ZERO,
+        },
+        devices: Devices::Cpu,
+        ..Plan::full()
+    };
+    let mut rows = bench(&plan, &NoDevice("not asked"), &Progress::new()).rows;
+    rows.iter_mut().for_each(time);
+    mark_front(&mut rows);
+    Measured {
+        rows,
+        machine: Machine::this(None),
+    }
+}
+
+/// A click with the pointer, after which the window comes to rest.
+pub fn click_at(ui: &mut Ui, at: egui::Pos2) {
+    ui.hover_at(at);
+    ui.step();
+    ui.drag_at(at);
+    ui.step();
+    ui.drop_at(at);
+    settle(ui);
+}
+
+/// Every text in the window.
+pub fn texts(ui: &Ui) -> Vec<String> {
+    let all = ui.query_all_by(|node| node.label().is_some() || node.value().is_some());
+    let text = |node: egui_kittest::Node<'_>| {
+        let node = node.accesskit_node();
+        node.label().or(node.value()).unwrap_or_default()
+    };
+    all.map(text).collect()
+}
+
+/// Where the inspector at the right begins, or the window ends: what is in the middle lies left of it.
+pub fn middle_end(ui: &Ui, width: f32) -> f32 {
+    let inspector = ui.query_by_label("follows the pointer");
+    inspector.map_or(width, |node| node.rect().left())
 }
 
 /// The rectangle on the screen of a panel's picture.

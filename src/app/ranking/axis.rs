@@ -21,11 +21,10 @@ impl Axis {
     /// Over all that is known; `None` where nothing bounded is.
     pub fn over(criterion: Criterion, entries: &[Entry<'_>]) -> Option<Self> {
         let values = entries.iter().filter_map(|entry| entry.value(criterion));
-        let is_bounded = |value: &f64| criterion.place(*value) < UNBOUNDED_PLACE;
         let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY];
         let mut has_unbounded = false;
         for value in values {
-            if is_bounded(&value) {
+            if criterion.is_bounded(value) {
                 (low, high) = (low.min(value), high.max(value));
             } else {
                 has_unbounded = true;
@@ -38,14 +37,15 @@ impl Axis {
         })
     }
 
-    /// Whether a value has a place among those with a bound.
-    pub fn is_bounded(&self, value: f64) -> bool {
-        self.criterion.place(value) < UNBOUNDED_PLACE
+    /// Whether a value lies between the ends, or is one as far as a search can tell.
+    pub fn contains(&self, value: f64) -> bool {
+        let [low, high] = self.ends.map(|end| self.criterion.rank(end));
+        (low..=high).contains(&self.criterion.rank(value))
     }
 
     /// Share of the axis, 0 to 1: from the best to the worst, and 1 where there is no bound. `margin` is left free at both ends.
     pub fn share(&self, value: f64, margin: f32) -> f32 {
-        if !self.is_bounded(value) {
+        if !self.criterion.is_bounded(value) {
             return 1.0 - 0.5 * margin;
         }
         let [low, high] = self.ends.map(|end| self.criterion.place(end));
@@ -79,14 +79,11 @@ impl Axis {
     }
 }
 
-/// A ratio of e to this power is none any more: an angle off by 180 degrees less what f64 can tell apart has 37.
-const UNBOUNDED_PLACE: f64 = 30.0;
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::imaging::Progress;
-    use crate::lab::metrics::measure;
+    use crate::lab::metrics::{CORNER_BOUND, measure};
     use crate::mapping::MappingId;
 
     #[test]
@@ -112,6 +109,10 @@ mod tests {
         let two = Axis::over(Criterion::Area, &entries[..2]).unwrap();
         assert!(!two.has_unbounded && two.border().is_none(), "control");
         assert_eq!(two.share(two.ends[1], 0.0), 1.0);
+        assert!(two.contains(4.5) && !two.contains(2.0) && !two.contains(6.0));
+        // The cube's corner is the end of an axis to the last digit but one.
+        let shape = Axis::over(Criterion::ShapeMax, &entries[..2]).unwrap();
+        assert!(shape.contains(CORNER_BOUND * (1.0 + 1e-15)));
         assert!((two.share((two.ends[0] * two.ends[1]).sqrt(), 0.0) - 0.5).abs() < 1e-6);
         assert!(Axis::over(Criterion::Cost, &entries).is_none());
     }

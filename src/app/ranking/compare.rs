@@ -4,11 +4,12 @@ use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
 use egui_plot::MarkerShape;
 
 use super::axis::Axis;
-use super::entry::{Entry, NO_COST, NONE, TO_COME, value_text};
+use super::entry::{CORNER, Entry, NO_COST, NONE, TO_COME, value_text};
 use crate::app::laboratory::paint_marker;
 use crate::app::model::Model;
 use crate::app::numbers::significant;
 use crate::app::theme;
+use crate::lab::metrics::CORNER_BOUND;
 use crate::lab::ranking::Criterion;
 
 /// Marks of the chosen, told apart by shape as well as by [`theme::SERIES`].
@@ -106,12 +107,25 @@ pub fn compare_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>], size: V
                 let x = line.left() + border * line.width();
                 painter.vline(x, y - 4.0..=y + 4.0, Stroke::new(1.0, QUIET));
             }
-            for (k, entry) in chosen.iter().enumerate().rev() {
-                let Some(value) = entry.value(criterion) else {
-                    continue;
-                };
-                let at = pos2(line.left() + line.width() * axis.share(value, 0.0), y);
-                paint_marker(&painter, at, SHAPES[k % SHAPES.len()], theme::SERIES[k]);
+            if criterion == Criterion::ShapeMax && axis.contains(CORNER_BOUND) {
+                let x = line.left() + line.width() * axis.share(CORNER_BOUND, 0.0);
+                let half = 0.5 * height;
+                painter.vline(x, y - half..=y + half, Stroke::new(1.5, theme::TEXEL));
+                let at = pos2(x + 7.0, y - 0.5 * half);
+                let font = FontId::proportional(LETTER - 2.0);
+                painter.text(at, Align2::LEFT_CENTER, "√3", font, theme::TEXEL);
+                hint += &format!("\n{CORNER}");
+            }
+            let place = |entry: &&Entry<'_>| {
+                let share = axis.share(entry.value(criterion)?, 0.0);
+                Some(line.left() + line.width() * share)
+            };
+            let places: Vec<Option<f32>> = chosen.iter().map(place).collect();
+            for (k, x) in places.iter().enumerate().rev() {
+                if let Some(x) = *x {
+                    let at = pos2(x, y + lane(k, &places, height));
+                    paint_marker(&painter, at, SHAPES[k % SHAPES.len()], theme::SERIES[k]);
+                }
             }
         } else if criterion == Criterion::Cost {
             hint += &format!("\n{NO_COST}");
@@ -141,6 +155,24 @@ pub fn compare_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>], size: V
     }
 }
 
+/// How far below a criterion's line one of the marks at these places lies: those that would cover each other get a lane each, the
+/// others lie on the line.
+fn lane(k: usize, places: &[Option<f32>], height: f32) -> f32 {
+    /// Width and height of a mark, and the share of the height between two lines that lanes take.
+    const MARK: f32 = 9.0;
+    const LANES: f32 = 0.85;
+    let covers = |other: &Option<f32>| {
+        let pair = places[k].zip(*other);
+        pair.is_some_and(|(own, other)| (own - other).abs() < MARK)
+    };
+    let before = places[..k].iter().filter(|other| covers(other)).count() as f32;
+    let count = places.iter().filter(|other| covers(other)).count() as f32;
+    // Both end marks stay within the lanes where there is room.
+    let room = (LANES * height - 0.5 * MARK).max(0.0);
+    let step = MARK.min(room / (count - 1.0).max(1.0));
+    (before - 0.5 * (count - 1.0).max(0.0)) * step
+}
+
 /// The chosen mappings' values, with all that belongs to them.
 fn whole_text(chosen: &[&Entry<'_>], criterion: Criterion) -> String {
     let all: Vec<String> = chosen.iter().map(|entry| entry.text(criterion)).collect();
@@ -166,4 +198,34 @@ fn legend_ui(ui: &mut Ui, chosen: &[&Entry<'_>]) {
             ui.colored_label(color, entry.map.info().id);
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_that_would_cover_each_other_get_lanes_and_the_others_lie_on_the_line() {
+        let lanes = |places: &[Option<f32>], height: f32| -> Vec<f32> {
+            (0..places.len()).map(|k| lane(k, places, height)).collect()
+        };
+        assert_eq!(
+            lanes(&[Some(0.0), Some(50.0), None, Some(90.0)], 20.0),
+            [0.0; 4]
+        );
+        // Two have room for the whole of both, four show a part of each; all within the line's height.
+        assert_eq!(
+            lanes(&[Some(1.0), Some(50.0), Some(2.0)], 20.0),
+            [-4.5, 0.0, 4.5]
+        );
+        let four = lanes(&[Some(7.0); 4], 20.0);
+        assert!(
+            four.windows(2).all(|pair| pair[1] - pair[0] > 4.0),
+            "{four:?}"
+        );
+        assert!(four.iter().all(|y| y.abs() < 10.0) && four.iter().sum::<f32>().abs() < 1e-4);
+        // A chain, whose ends do not cover each other.
+        let chain = lanes(&[Some(0.0), Some(8.0), Some(16.0)], 20.0);
+        assert!(chain.is_sorted_by(|a, b| a < b), "{chain:?}");
+    }
 }

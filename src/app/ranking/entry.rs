@@ -3,10 +3,11 @@
 use crate::app::laboratory::{cheapest_lookup, measured_text};
 use crate::app::model::Model;
 use crate::app::numbers::significant;
+use crate::app::state::Claim;
 use crate::lab::choice::Choice;
 use crate::lab::metrics::{CORNER_BOUND, Metrics, UNBOUNDED};
 use crate::lab::ranking::{Criterion, Placed, order};
-use crate::mapping::MappingId;
+use crate::mapping::{Borders, MappingId};
 
 /// Where a number is still to come.
 pub const TO_COME: &str = "…";
@@ -14,6 +15,9 @@ pub const TO_COME: &str = "…";
 pub const NONE: &str = "–";
 /// How to get costs.
 pub const NO_COST: &str = "Not measured on this machine: open Run time and error, choose the mapping there and press Measure. What is measured but not within the error budget there has no cost here either.";
+
+/// About the largest a/b, beyond what the criterion says itself.
+pub const CORNER: &str = "No mapping that is smooth at a cube's corner is below √3 = 1.732: a right angle of the map is 120° there. The quadrilateralised cube is below because it is bent along the diagonals.";
 
 /// A mapping with what is known of it.
 #[derive(Clone, Copy, Debug)]
@@ -28,11 +32,11 @@ pub struct Entry<'a> {
     pub placed: Option<Placed>,
 }
 
-/// All mappings, in teaching order.
-pub fn entries<'a>(model: &Model<'a>) -> Vec<Entry<'a>> {
+/// These mappings, each with its place among them.
+pub fn entries<'a>(model: &Model<'a>, maps: &[MappingId]) -> Vec<Entry<'a>> {
     let ranking = &model.state.ranking;
     let lab = &model.labs.ranking;
-    let measured: Vec<&Metrics> = MappingId::ALL.iter().filter_map(|m| lab.of(*m)).collect();
+    let measured: Vec<&Metrics> = maps.iter().filter_map(|m| lab.of(*m)).collect();
     let places = order(&measured, ranking.basis, ranking.weight);
     let rows = model.labs.bench.rows();
     let entry = |&map: &MappingId| Entry {
@@ -41,7 +45,7 @@ pub fn entries<'a>(model: &Model<'a>) -> Vec<Entry<'a>> {
         cost: cheapest_lookup(model.state, rows, map),
         placed: places.iter().find(|placed| placed.map == map).copied(),
     };
-    MappingId::ALL.iter().map(entry).collect()
+    maps.iter().map(entry).collect()
 }
 
 impl Entry<'_> {
@@ -66,12 +70,8 @@ impl Entry<'_> {
     /// "equal-area, continuous".
     pub fn claims(&self) -> String {
         let claims = self.map.info().claims;
-        let all = [
-            (claims.equal_area, "equal-area"),
-            (claims.conformal, "conformal"),
-            (claims.continuous, "continuous"),
-        ];
-        let kept: Vec<&str> = all.iter().filter(|c| c.0).map(|c| c.1).collect();
+        let kept = Claim::ALL.into_iter().filter(|claim| claim.is_kept(claims));
+        let kept: Vec<&str> = kept.map(Claim::name).collect();
         kept.join(", ")
     }
 
@@ -95,13 +95,12 @@ impl Entry<'_> {
     pub fn corner_text(&self) -> Option<&'static str> {
         /// As near as the search for the largest ends.
         const NEAR: f64 = 1e-6;
-        let corners = 6; // faces, three of which meet at a corner
         let above = self.value(Criterion::ShapeMax)? - CORNER_BOUND;
-        if self.map.info().chart_count() != corners || above > NEAR {
+        if self.map.info().borders != Borders::CubeEdges || above > NEAR {
             return None;
         }
         Some(if above > -NEAR {
-            "a/b max is √3: what is smooth at a cube's corner is not below"
+            "a/b max is √3: no mapping that is smooth at a cube's corner is below"
         } else {
             "a/b max is below √3, which is no contradiction: this cube is bent along the diagonals, so it is not smooth at the corner"
         })

@@ -11,10 +11,11 @@ use crate::app::action::Action;
 use crate::app::command::Command;
 use crate::app::lists::list_ui;
 use crate::app::model::Model;
-use crate::app::state::{MOST_COMPARED, RankingPlot, RankingState};
+use crate::app::state::{Claim, MOST_COMPARED, RankingPlot, RankingState};
 use crate::app::theme;
 use crate::lab::metrics::Metrics;
 use crate::lab::ranking::{Basis, winners};
+use crate::mapping::{Family, MappingId};
 
 /// Below this width the pane scrolls sideways.
 const LEAST_WIDTH: f32 = 230.0;
@@ -33,7 +34,8 @@ fn content_ui(ui: &mut Ui, model: &mut Model<'_>, height: f32) {
     let top = ui.cursor().top();
     measuring_ui(ui, model);
     weight_ui(ui, model);
-    let entries = entries(model);
+    kinds_ui(ui, model);
+    let entries = entries(model, &model.state.ranking.maps());
     winners_ui(ui, model, &entries);
     // A line of buttons, and one of lists, stand above the plot.
     const LINES: f32 = 54.0;
@@ -45,14 +47,20 @@ fn content_ui(ui: &mut Ui, model: &mut Model<'_>, height: f32) {
     match model.state.ranking.plot {
         RankingPlot::Weights => bump_ui(ui, model, &entries, size),
         RankingPlot::Scatter => scatter_ui(ui, model, &entries, size),
-        RankingPlot::Compare => compare_ui(ui, model, &entries, size),
+        // The chosen are compared with all, whatever the table shows.
+        RankingPlot::Compare => compare_ui(
+            ui,
+            model,
+            &super::entry::entries(model, MappingId::ALL),
+            size,
+        ),
     }
 }
 
 /// How far the measuring is, where it is not done.
 fn measuring_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let lab = &model.labs.ranking;
-    let all = crate::mapping::MappingId::ALL;
+    let all = MappingId::ALL;
     let known = all.iter().filter(|map| lab.of(**map).is_some()).count();
     if known == all.len() {
         return;
@@ -84,6 +92,22 @@ fn weight_ui(ui: &mut Ui, model: &mut Model<'_>) {
     set(model, ranking);
 }
 
+/// Which mappings are ranked.
+fn kinds_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    let mut ranking = model.state.ranking.clone();
+    ui.horizontal_wrapped(|ui| {
+        let families = std::iter::once(None).chain(Family::ALL.map(Some));
+        list_ui(ui, "rank", &mut ranking.family, families, |family| {
+            family.map_or("all", Family::title).to_owned()
+        });
+        let claims = std::iter::once(None).chain(Claim::ALL.map(Some));
+        list_ui(ui, "that are", &mut ranking.claim, claims, |claim| {
+            claim.map_or("anything", Claim::name).to_owned()
+        });
+    });
+    set(model, ranking);
+}
+
 /// Which mapping is best, and from which weight on another.
 fn winners_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>]) {
     let measured: Vec<&Metrics> = entries.iter().filter_map(|entry| entry.metrics).collect();
@@ -95,6 +119,9 @@ fn winners_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>]) {
             0 => format!("Best for area: {name}"),
             _ => format!("; from {weight:.2} on {name}"),
         };
+    }
+    if entries.is_empty() {
+        text = "No mapping is of this kind and keeps that promise.".to_owned();
     }
     if !text.is_empty() {
         ui.add(Label::new(RichText::new(text).strong()).wrap());

@@ -10,9 +10,8 @@ use crate::app::laboratory::{free_place, look, paint_marker};
 use crate::app::lists::list_ui;
 use crate::app::model::Model;
 use crate::app::theme;
-use crate::lab::front::on_front;
 use crate::lab::metrics::CORNER_BOUND;
-use crate::lab::ranking::Criterion;
+use crate::lab::ranking::{Criterion, front};
 use crate::lab::scatter::front_steps;
 
 /// Room for the marks: at the left and below.
@@ -69,25 +68,16 @@ pub fn scatter_ui(ui: &mut Ui, model: &mut Model<'_>, entries: &[Entry<'_>], siz
         .iter()
         .filter_map(|entry| Some((entry, [entry.value(chosen[0])?, entry.value(chosen[1])?])))
         .collect();
-    let costs = known.iter().map(|(_, [x, y])| {
-        let bounded = |axis: &Axis, value: f64| {
-            if axis.is_bounded(value) {
-                value
-            } else {
-                f64::NAN
-            }
-        };
-        (bounded(&across, *x), bounded(&up, *y))
-    });
-    let fronts = on_front(&costs.collect::<Vec<_>>());
-    let mut front: Vec<[f64; 2]> = known
+    let values: Vec<[f64; 2]> = known.iter().map(|(_, at)| *at).collect();
+    let fronts = front(chosen, &values);
+    let mut ends: Vec<[f64; 2]> = known
         .iter()
         .zip(&fronts)
         .filter(|(_, is_on)| **is_on)
         .map(|((_, at), _)| *at)
         .collect();
-    front.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let stair: Vec<Pos2> = front_steps(&front).into_iter().map(place).collect();
+    ends.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let stair: Vec<Pos2> = front_steps(&ends).into_iter().map(place).collect();
     for pair in stair.windows(2) {
         let stroke = Stroke::new(1.5, Color32::from_gray(200));
         ui.painter().line_segment([pair[0], pair[1]], stroke);
@@ -101,9 +91,11 @@ pub fn scatter_ui(ui: &mut Ui, model: &mut Model<'_>, entries: &[Entry<'_>], siz
             on_front: *is_on,
         })
         .collect();
-    paint_corner(ui.painter(), frame, &across, &up);
+    let mut lines = paint_corner(ui.painter(), frame, &across, &up);
+    let front_lines = stair.windows(2);
+    lines.extend(front_lines.map(|pair| Rect::from_two_pos(pair[0], pair[1]).expand(1.0)));
     points_ui(ui, model, &points);
-    paint_names(ui.painter(), frame, &points);
+    paint_names(ui.painter(), frame, &points, lines);
     let missing = entries.len() - points.len();
     if missing > 0 {
         let text = match chosen.contains(&Criterion::Cost) {
@@ -187,29 +179,35 @@ fn paint_axes(painter: &Painter, frame: Rect, across: &Axis, up: &Axis) {
     painter.add(turned.with_angle(-std::f32::consts::FRAC_PI_2));
 }
 
-/// The least a/b of what is smooth at a cube's corner, where the largest a/b is an axis.
-fn paint_corner(painter: &Painter, frame: Rect, across: &Axis, up: &Axis) {
-    const TEXT: &str = "√3: what is smooth at a cube's corner is not below";
+/// The least a/b of what is smooth at a cube's corner, where the largest a/b is an axis; what the line and its words cover.
+fn paint_corner(painter: &Painter, frame: Rect, across: &Axis, up: &Axis) -> Vec<Rect> {
+    let mut covered = Vec::new();
+    const TEXT: &str = "√3: no mapping that is smooth at a cube's corner is below";
     let font = FontId::proportional(LETTER);
     let stroke = Stroke::new(1.0, theme::TEXEL);
-    let is_shown = |axis: &Axis| {
-        axis.criterion == Criterion::ShapeMax
-            && (axis.ends[0]..=axis.ends[1]).contains(&CORNER_BOUND)
-    };
+    let is_shown =
+        |axis: &Axis| axis.criterion == Criterion::ShapeMax && axis.contains(CORNER_BOUND);
     if is_shown(up) {
         let y = frame.bottom() - frame.height() * up.share(CORNER_BOUND, MARGIN);
         painter.hline(frame.x_range(), y, stroke);
         let at = pos2(frame.right() - 4.0, y + 1.0);
-        painter.text(at, Align2::RIGHT_TOP, TEXT, font.clone(), theme::TEXEL);
+        let words = painter.text(at, Align2::RIGHT_TOP, TEXT, font.clone(), theme::TEXEL);
+        let line = Rect::from_x_y_ranges(frame.x_range(), y - 1.0..=y + 1.0);
+        covered.extend([words, line]);
     }
     if is_shown(across) {
         let x = frame.left() + frame.width() * across.share(CORNER_BOUND, MARGIN);
         painter.vline(x, frame.y_range(), stroke);
         let galley = painter.layout_no_wrap(TEXT.to_owned(), font, theme::TEXEL);
         let at = pos2(x + 2.0 + galley.size().y, frame.top() + 4.0);
+        let words = vec2(galley.size().y + 3.0, galley.size().x);
+        covered.push(Rect::from_min_size(pos2(x, frame.top() + 4.0), words));
+        let line = Rect::from_x_y_ranges(x - 1.0..=x + 1.0, frame.y_range());
+        covered.push(line);
         let turned = egui::epaint::TextShape::new(at, galley, theme::TEXEL);
         painter.add(turned.with_angle(std::f32::consts::FRAC_PI_2));
     }
+    covered
 }
 
 /// The points: all that is known of a mapping under the pointer, a click opens it.
@@ -243,12 +241,11 @@ fn points_ui(ui: &mut Ui, model: &mut Model<'_>, points: &[Point<'_>]) {
     }
 }
 
-/// Names of the front's points, then of the others, each where it covers no point and no other name.
-fn paint_names(painter: &Painter, frame: Rect, points: &[Point<'_>]) {
-    let mut taken: Vec<Rect> = points
-        .iter()
-        .map(|point| Rect::from_center_size(point.at, Vec2::splat(8.0)))
-        .collect();
+/// Names of the front's points, then of the others, each where it covers no point, no line and no other name.
+fn paint_names(painter: &Painter, frame: Rect, points: &[Point<'_>], lines: Vec<Rect>) {
+    let mut taken = lines;
+    let marks = points.iter().map(|point| point.at);
+    taken.extend(marks.map(|at| Rect::from_center_size(at, Vec2::splat(8.0))));
     for is_on in [true, false] {
         for point in points.iter().filter(|point| point.on_front == is_on) {
             let info = point.entry.map.info();

@@ -3,10 +3,12 @@
 use std::cmp::Ordering;
 
 use egui::{Align2, Checkbox, Color32, FontId, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
+use egui_plot::MarkerShape;
 
-use super::entry::{Entry, NO_COST, NONE, TO_COME};
+use super::entry::{CORNER, Entry, NO_COST, NONE, TO_COME};
 use super::panel::set;
 use crate::app::action::Action;
+use crate::app::laboratory::paint_marker;
 use crate::app::model::Model;
 use crate::app::state::{MOST_COMPARED, RankingColumn};
 use crate::app::theme;
@@ -16,14 +18,14 @@ use crate::lab::ranking::{Criterion, compare};
 /// Height of a line, and size of its letters.
 const LINE: f32 = 17.0;
 const LETTER: f32 = 11.5;
+/// Room for the mark of the column that sorts.
+const MARK: f32 = 12.0;
 /// Room for a checkbox.
 const BOX: f32 = 20.0;
 /// From this width on mappings are called by their names, below by their short ones.
 const NAMED: f32 = 420.0;
 /// What is of less interest.
 const QUIET: Color32 = Color32::from_gray(150);
-/// About the largest a/b, beyond what the criterion says itself.
-const CORNER: &str = "A mapping that is smooth at a cube's corner is not below √3 = 1.732: a right angle of the map is 120° there. The quadrilateralised cube is below because it is bent along the diagonals.";
 
 /// The columns that scroll.
 fn columns() -> impl Iterator<Item = RankingColumn> {
@@ -108,7 +110,11 @@ fn sort(entries: &mut [Entry<'_>], column: RankingColumn, descending: bool) {
             };
             compare(place(a), place(b), descending)
         }
-        RankingColumn::By(criterion) => compare(a.value(criterion), b.value(criterion), descending),
+        RankingColumn::By(criterion) => {
+            let rank =
+                |entry: &Entry<'_>| entry.value(criterion).map(|value| criterion.rank(value));
+            compare(rank(a), rank(b), descending)
+        }
     });
 }
 
@@ -231,29 +237,41 @@ fn cells_ui(ui: &mut Ui, entry: &Entry<'_>, at: egui::Pos2) {
     }
 }
 
-/// Words at the left, numbers at the right.
-fn paint_text(ui: &Ui, rect: Rect, column: RankingColumn, text: &str, color: Color32) {
+/// Words at the left, numbers at the right; where they were painted.
+fn paint_text(ui: &Ui, rect: Rect, column: RankingColumn, text: &str, color: Color32) -> Rect {
     let font = FontId::proportional(LETTER);
     let (anchor, at) = match column {
         RankingColumn::Mapping => (Align2::LEFT_CENTER, rect.left_center() + vec2(3.0, 0.0)),
         RankingColumn::Claims => (Align2::LEFT_CENTER, rect.left_center() + vec2(14.0, 0.0)),
         _ => (Align2::RIGHT_CENTER, rect.right_center()),
     };
-    ui.painter().text(at, anchor, text, font, color);
+    ui.painter().text(at, anchor, text, font, color)
 }
 
 /// A head: a click sorts by it, another turns the order.
 fn head_ui(ui: &mut Ui, model: &mut Model<'_>, column: RankingColumn, rect: Rect) {
     let mut ranking = model.state.ranking.clone();
     let is_sorted = ranking.sort == column;
-    let (words, color) = match (is_sorted, ranking.descending) {
-        (true, false) => (format!("{}↑", title(column)), theme::TEXEL),
-        (true, true) => (format!("{}↓", title(column)), theme::TEXEL),
-        _ => (title(column).to_owned(), Color32::WHITE),
+    let color = if is_sorted {
+        theme::TEXEL
+    } else {
+        Color32::WHITE
     };
     let label = format!("Sort by {}", title(column));
     let response = press(ui, rect, &label, false);
-    paint_text(ui, rect, column, &words, color);
+    // Numbers stand at the right of their columns, so there the mark has a place of its own.
+    let room = if is_sorted { MARK } else { 0.0 };
+    let place = rect.with_max_x(rect.right() - room);
+    let drawn = paint_text(ui, place, column, title(column), color);
+    if is_sorted {
+        let at = pos2(drawn.right() + 0.5 * MARK, drawn.center().y);
+        let shape = if ranking.descending {
+            MarkerShape::Down
+        } else {
+            MarkerShape::Up
+        };
+        paint_marker(ui.painter(), at, shape, color);
+    }
     if response.clicked() {
         ranking.descending = is_sorted && !ranking.descending;
         ranking.sort = column;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::lab::ranking::{Basis, Criterion};
-use crate::mapping::MappingId;
+use crate::mapping::{Claims, Family, MappingId};
 
 /// How many mappings are compared at most: more lines nobody tells apart.
 pub const MOST_COMPARED: usize = 4;
@@ -18,6 +18,10 @@ pub struct RankingState {
     pub sort: RankingColumn,
     /// The largest first.
     pub descending: bool,
+    /// Only mappings of this kind are ranked.
+    pub family: Option<Family>,
+    /// Only mappings that keep this promise are ranked.
+    pub claim: Option<Claim>,
     /// The mappings that are compared, [`MOST_COMPARED`] at most, in the order in which they were chosen.
     pub compared: Vec<MappingId>,
     /// What is drawn below the table.
@@ -37,6 +41,8 @@ impl Default for RankingState {
             open: false,
             sort: RankingColumn::Score,
             descending: false,
+            family: None,
+            claim: None,
             compared: vec![MappingId::Cube, MappingId::Ccm, MappingId::Paraboloid],
             plot: RankingPlot::Weights,
             axes: [Criterion::Area, Criterion::ShapeMax],
@@ -63,6 +69,51 @@ impl RankingState {
             Self::default().weight
         };
         self
+    }
+
+    /// The mappings that are ranked, in teaching order.
+    pub fn maps(&self) -> Vec<MappingId> {
+        let is_ranked = |map: &MappingId| {
+            let info = map.info();
+            self.family.is_none_or(|family| family == info.family)
+                && self.claim.is_none_or(|claim| claim.is_kept(info.claims))
+        };
+        MappingId::ALL.iter().copied().filter(is_ranked).collect()
+    }
+}
+
+/// A promise by which mappings are picked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Claim {
+    /// [`Claims::equal_area`].
+    EqualArea,
+    /// [`Claims::conformal`].
+    Conformal,
+    /// [`Claims::continuous`].
+    Continuous,
+}
+
+impl Claim {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::EqualArea, Self::Conformal, Self::Continuous];
+
+    /// Its name for people.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::EqualArea => "equal-area",
+            Self::Conformal => "conformal",
+            Self::Continuous => "continuous",
+        }
+    }
+
+    /// Whether a mapping promises it.
+    pub const fn is_kept(self, claims: Claims) -> bool {
+        match self {
+            Self::EqualArea => claims.equal_area,
+            Self::Conformal => claims.conformal,
+            Self::Continuous => claims.continuous,
+        }
     }
 }
 
@@ -128,5 +179,27 @@ mod tests {
         assert_eq!(none.sanitized().weight, 0.5);
         let default = RankingState::default();
         assert_eq!(default.clone().sanitized(), default);
+    }
+
+    #[test]
+    fn kinds_and_promises_pick_what_they_say() {
+        let of = |family, claim| {
+            let state = RankingState {
+                family,
+                claim,
+                ..RankingState::default()
+            };
+            state.maps()
+        };
+        assert_eq!(of(None, None), MappingId::ALL);
+        let cubes = of(Some(Family::Cubes), Some(Claim::EqualArea));
+        assert!(cubes.contains(&MappingId::Qsc) && cubes.contains(&MappingId::Arvo));
+        assert!(!cubes.contains(&MappingId::Cube) && !cubes.contains(&MappingId::Sphere));
+        assert!(
+            of(None, Some(Claim::EqualArea)).contains(&MappingId::Sphere),
+            "control"
+        );
+        assert!(of(None, Some(Claim::Conformal)).contains(&MappingId::Paraboloid));
+        assert!(of(Some(Family::Octahedra), Some(Claim::Conformal)).is_empty());
     }
 }
