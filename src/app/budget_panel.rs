@@ -6,7 +6,7 @@ use egui::{Align2, Color32, Pos2, Rect, ScrollArea, Sense, Slider, Ui, Vec2, pos
 use super::action::Action;
 use super::budget::{Lens, MOST_PIXELS, View};
 use super::budget_numbers::{NARROW, numbers_height, numbers_ui};
-use super::lists::list_ui;
+use super::lists::{grouped_list_ui, list_ui};
 use super::marks::{edged_line, edged_text};
 use super::model::Model;
 use super::state::{AppState, BudgetState, COMPARED_TEXELS, EyeRay, MAGNIFIERS, Overlays};
@@ -57,7 +57,8 @@ fn choices_ui(ui: &mut Ui, model: &mut Model<'_>) {
             let usual = || usual_text(state, index);
             map.map_or_else(usual, |map| map.info().name.to_owned())
         };
-        list_ui(ui, NAMES[index], map, options, title);
+        let family = |map: &Option<MappingId>| map.map(|map| map.info().family);
+        grouped_list_ui(ui, NAMES[index], map, options, title, family);
     };
     if ui.available_width() < NARROW {
         // A list would be parted from its name.

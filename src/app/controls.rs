@@ -6,6 +6,7 @@ use super::action::Action;
 use super::arrangement::Pane;
 use super::command::Command;
 use super::dialogs::Dialog;
+use super::lists;
 use super::material_panel::material_ui;
 use super::model::Model;
 use super::state::{EXPOSURE_RANGE, MOST_MAGNIFIED, TEXEL_BUDGET_RANGE};
@@ -14,7 +15,7 @@ use crate::gpu::ToneCurve;
 use crate::imaging::{Environment, short_name};
 use crate::lab::metrics::Quantity;
 use crate::lab::metrics::tissot::SPACING_DEG;
-use crate::mapping::{MappingId, ShaderForm};
+use crate::mapping::{Family, MappingId, ShaderForm};
 use crate::scene::Object;
 
 /// Shows the controls, scrolled where they are too many.
@@ -53,18 +54,26 @@ pub(super) fn choose_ui<T: PartialEq + Clone>(
     options: impl IntoIterator<Item = T>,
     name: impl Fn(&T) -> String,
 ) -> Option<T> {
+    choose_grouped_ui(ui, label, now, options, name, |_| None)
+}
+
+/// The same of what belongs to mappings' families.
+fn choose_grouped_ui<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    label: &str,
+    now: &T,
+    options: impl IntoIterator<Item = T>,
+    name: impl Fn(&T) -> String,
+    family: impl Fn(&T) -> Option<Family>,
+) -> Option<T> {
     let mut chosen = now.clone();
     let text = ui.label(label);
     ComboBox::from_id_salt(label)
         .width(ui.available_width() - 8.0)
-        // High enough for every list that there is.
-        .height(420.0)
+        .height(lists::HEIGHT)
         .selected_text(name(now))
         .show_ui(ui, |ui| {
-            for option in options {
-                let title = name(&option);
-                ui.selectable_value(&mut chosen, option, title);
-            }
+            lists::entries_ui(ui, &mut chosen, options, name, family)
         })
         .response
         .labelled_by(text.id);
@@ -75,23 +84,27 @@ fn mapping_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let state = model.state;
     let all = MappingId::ALL.iter().copied();
     let name = |m: &MappingId| m.info().name.to_owned();
-    if let Some(mapping) = choose_ui(
+    let family = |m: &MappingId| Some(m.info().family);
+    if let Some(mapping) = choose_grouped_ui(
         ui,
         "looked up by object and sky",
         &state.mapping,
         all.clone(),
         name,
+        family,
     ) {
         model.push(Action::SetMapping(mapping));
     }
     let others = std::iter::once(None).chain(all.filter(|m| *m != state.mapping).map(Some));
     let name = |m: &Option<MappingId>| m.map_or("none", |m| m.info().name).to_owned();
-    if let Some(compare) = choose_ui(
+    let family = |m: &Option<MappingId>| m.map(|m| m.info().family);
+    if let Some(compare) = choose_grouped_ui(
         ui,
         "compared, right of the divider",
         &state.compare,
         others,
         name,
+        family,
     ) {
         model.push(Action::SetCompare(compare));
     }
@@ -253,13 +266,15 @@ fn overlays_ui(ui: &mut Ui, model: &mut Model<'_>) {
 }
 
 fn panels_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    for &mapping in MappingId::ALL {
+    let all = MappingId::ALL.iter().copied();
+    let family = |map: &MappingId| Some(map.info().family);
+    lists::grouped_ui(ui, all, family, |ui, mapping| {
         let pane = Pane::Map(mapping);
         let mut open = model.state.is_open(pane);
         if ui.checkbox(&mut open, pane.name()).changed() {
             model.push(Action::SetPaneOpen(pane, open));
         }
-    }
+    });
     if ui.button("Arrange as at first").clicked() {
         model.push(Command::ResetArrangement);
     }

@@ -8,6 +8,7 @@ use super::action::Action;
 use super::command::Command;
 use super::export::Export;
 use super::export_dialog::export_ui;
+use super::lists;
 use super::model::Model;
 use super::picture::{Destination, MAX_SIDE, PictureRequest, What};
 use super::reading_dialog::{reading_ui, reading_width};
@@ -239,6 +240,7 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
         let label = ui.label("of");
         ComboBox::from_id_salt("picture of")
             .selected_text(fields.what.name())
+            .height(lists::HEIGHT)
             .show_ui(ui, |ui| {
                 let maps = MappingId::ALL.iter().map(|m| What::Panel(*m));
                 let first = [
@@ -249,9 +251,17 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
                     What::Budget,
                     What::Ranking,
                 ];
-                for what in first.into_iter().chain(maps) {
-                    ui.selectable_value(&mut fields.what, what, what.name());
-                }
+                let all = first.into_iter().chain(maps);
+                lists::entries_ui(
+                    ui,
+                    &mut fields.what,
+                    all,
+                    |what| what.name(),
+                    |what| match what {
+                        What::Panel(map) => Some(map.info().family),
+                        _ => None,
+                    },
+                );
             })
             .response
             .labelled_by(label.id);

@@ -5,11 +5,12 @@ use egui::{ComboBox, DragValue, Grid, RichText, Ui};
 use super::command::Command;
 use super::dialogs::{buttons_ui, path_ui};
 use super::export::{Export, FORMATS, MOST_ROWS, Preset, kind_names, kinds};
+use super::lists;
 use super::model::Model;
 use super::pace::Pace;
 use crate::imaging::load::Format;
 use crate::imaging::resample::{Filter, chart_size};
-use crate::mapping::{Frame, Layout, MappingId};
+use crate::mapping::{Family, Frame, Layout, MappingId};
 
 /// A row of the form: a name and a list to choose from.
 pub(super) fn row_ui<T: PartialEq + Clone>(
@@ -19,15 +20,26 @@ pub(super) fn row_ui<T: PartialEq + Clone>(
     options: &[T],
     name: impl Fn(&T) -> String,
 ) -> bool {
+    grouped_row_ui(ui, label, now, options, name, |_| None)
+}
+
+/// The same of what belongs to mappings' families.
+pub(super) fn grouped_row_ui<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    label: &str,
+    now: &mut T,
+    options: &[T],
+    name: impl Fn(&T) -> String,
+    family: impl Fn(&T) -> Option<Family>,
+) -> bool {
     let before = now.clone();
     let text = ui.label(label);
     ComboBox::from_id_salt(("export", label))
         .width(250.0)
+        .height(lists::HEIGHT)
         .selected_text(name(now))
         .show_ui(ui, |ui| {
-            for option in options {
-                ui.selectable_value(now, option.clone(), name(option));
-            }
+            lists::entries_ui(ui, now, options.iter().cloned(), name, family)
         })
         .response
         .labelled_by(text.id);
@@ -84,7 +96,9 @@ pub fn export_ui(ui: &mut Ui, model: &mut Model<'_>, export: &mut Export) -> boo
 
 fn form_ui(ui: &mut Ui, export: &mut Export) {
     let info = |mapping: &MappingId| mapping.info().name.to_owned();
-    let mut changed = row_ui(ui, "mapping", &mut export.mapping, MappingId::ALL, info);
+    let family = |mapping: &MappingId| Some(mapping.info().family);
+    let all = MappingId::ALL;
+    let mut changed = grouped_row_ui(ui, "mapping", &mut export.mapping, all, info, family);
     let knows = Frame::ALL
         .iter()
         .filter(|frame| frame.knows(export.mapping) && !frame.is_ours);

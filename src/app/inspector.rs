@@ -5,6 +5,7 @@ use egui::{Color32, Grid, RichText, Ui};
 use super::action::Action;
 use super::command::Command;
 use super::laboratory;
+use super::lists;
 use super::model::Model;
 use super::probe::texel_of;
 use super::state::{InspectorState, Precision};
@@ -292,10 +293,9 @@ fn steps_ui(ui: &mut Ui, model: &mut Model<'_>) {
         let label = ui.label("of");
         egui::ComboBox::from_id_salt("steps of")
             .selected_text(inspector.mapping.info().name)
+            .height(lists::HEIGHT)
             .show_ui(ui, |ui| {
-                for &mapping in MappingId::ALL {
-                    ui.selectable_value(&mut inspector.mapping, mapping, mapping.info().name);
-                }
+                lists::mapping_entries_ui(ui, &mut inspector.mapping)
             })
             .response
             .labelled_by(label.id);

@@ -4,7 +4,7 @@ use egui::{Color32, DragValue, Rect, RichText, Sense, Ui, vec2};
 
 use super::action::Action;
 use super::command::Command;
-use super::lists::list_ui;
+use super::lists::{grouped_list_ui, list_ui};
 use super::loss::{Measured, Shown};
 use super::map_panel::{paint_chart_names, paint_probe, place_of, pointer, window_of};
 use super::marks::ring;
@@ -101,7 +101,8 @@ fn map_ui(ui: &mut Ui, label: &str, mapping: &mut MappingId, rows: &mut u32) {
     let before = *mapping;
     let all = MappingId::ALL.iter().copied();
     let name = |mapping: &MappingId| mapping.info().name.to_owned();
-    list_ui(ui, label, mapping, all, name);
+    let family = |mapping: &MappingId| Some(mapping.info().family);
+    grouped_list_ui(ui, label, mapping, all, name, family);
     if *mapping != before {
         *rows = equal_rows(*mapping, before, chart_size(before, *rows));
     }

@@ -8,7 +8,7 @@ use egui::{
 use super::command::Command;
 use super::dialogs::buttons_ui;
 use super::export::quoted;
-use super::export_dialog::{line_ui, row_ui};
+use super::export_dialog::{grouped_row_ui, line_ui, row_ui};
 use super::marks::edged_text;
 use super::model::Model;
 use super::reading::{Reading, Shown, Taken};
@@ -227,7 +227,8 @@ fn mapping_rows_ui(ui: &mut Ui, chosen: Option<&Proposal>, hints: &mut OpenHints
             .map_or("not said", |mapping| mapping.info().name)
             .to_owned()
     };
-    if row_ui(ui, "mapping", &mut mapping, &all, name)
+    let family = |mapping: &Option<MappingId>| mapping.map(|mapping| mapping.info().family);
+    if grouped_row_ui(ui, "mapping", &mut mapping, &all, name, family)
         && let Some(mapping) = mapping
     {
         let charts = mapping.info().chart_count();

@@ -1,4 +1,4 @@
-//! Six files for the six faces, found by their usual names.
+//! Six files for the six faces, found by their usual names, and a file for each chart of any mapping.
 
 use std::fs::read_dir;
 use std::io;
@@ -94,6 +94,34 @@ pub(super) fn named(path: &Path) -> io::Result<Named> {
     Ok(alone)
 }
 
+/// The files of a path with `%f` for these charts, by the names that an export gives them, or the names of those that are not there;
+/// `None` for a path without `%f`.
+///
+/// # Errors
+/// When the folder cannot be read.
+pub(super) fn of_charts(
+    path: &Path,
+    charts: &[&str],
+) -> io::Result<Option<Result<Vec<PathBuf>, Vec<String>>>> {
+    let name = path.file_name().and_then(|name| name.to_str());
+    let Some((before, after)) = name.and_then(|name| name.split_once(PLACE)) else {
+        return Ok(None);
+    };
+    let folder = Folder::of(path)?;
+    let (mut files, mut missing) = (Vec::new(), Vec::new());
+    for chart in charts.iter().map(|chart| face_name(chart)) {
+        match folder.find(before, &chart, after) {
+            Some(name) => files.push(folder.path.join(name)),
+            None => missing.push(format!("{before}{chart}{after}")),
+        }
+    }
+    Ok(Some(if missing.is_empty() {
+        Ok(files)
+    } else {
+        Err(missing)
+    }))
+}
+
 /// What stands before a face's name at the end of a stem, and the face.
 fn face_in<'a>(stem: &'a str, set: &[&str; 6]) -> Option<(&'a str, usize)> {
     (0..FACES.len()).find_map(|label| {
@@ -163,6 +191,21 @@ mod tests {
         assert_eq!(face_name("+x"), "px");
         assert_eq!(face_name("-z"), "nz");
         assert_eq!(face_name("front"), "front");
+    }
+
+    #[test]
+    fn charts_are_found_by_their_names_and_in_their_order() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        std::fs::write(path("a_back.png"), b"").unwrap();
+        let charts = ["front", "back"];
+        let missing = of_charts(&path("a_%f.png"), &charts).unwrap();
+        assert_eq!(missing, Some(Err(vec!["a_front.png".to_owned()])));
+        std::fs::write(path("a_front.png"), b"").unwrap();
+        let both = ["a_front.png", "a_back.png"].map(path).to_vec();
+        let found = of_charts(&path("a_%f.png"), &charts).unwrap();
+        assert_eq!(found, Some(Ok(both)));
+        assert_eq!(of_charts(&path("a_front.png"), &charts).unwrap(), None);
     }
 
     #[test]

@@ -39,7 +39,7 @@ pub struct OpenedMap {
 }
 
 /// Opens a map: one file, or one for each chart, six in the order +x -x +y -y +z -z. In the name of a single path `%f` stands
-/// for the six names of the faces, and beside a file that is named like a face the other five are looked for, unless the
+/// for the names of the charts, six faces where the mapping is not said, and beside a file that is named like a face the other five are looked for, unless the
 /// hints say that it is a map by itself.
 ///
 /// # Errors
@@ -154,13 +154,18 @@ impl Pictures {
                 return Ok((*first).clone());
             }
         } else if let Some(mapping) = hints.mapping {
-            let charts = mapping.info().chart_count();
-            let layout = hints.layout.or((charts == 1).then_some(Layout::Single));
-            let said = layout.map(|layout| Proposal::said(mapping, layout));
-            if let Some(said) = said.filter(|said| is_whole(said, rasters)) {
+            // As it is written when nothing is said.
+            let usual = if rasters.len() == 1 {
+                mapping.info().layout
+            } else {
+                Layout::Faces
+            };
+            let said = Proposal::said(mapping, hints.layout.unwrap_or(usual));
+            if is_whole(&said, rasters, hints.layout.is_some()) {
                 return Ok(said);
             }
-            let layout = layout.map_or(String::new(), |layout| format!(" as `{}`", layout.id()));
+            let named = |layout: Layout| format!(" as `{}`", layout.id());
+            let layout = hints.layout.map_or(String::new(), named);
             return Err(format!(
                 "{} cannot be `{mapping}`{layout}; name another mapping or layout",
                 found(rasters)
@@ -189,10 +194,14 @@ fn found(rasters: &[Raster]) -> String {
     }
 }
 
-/// Whether the pictures hold the charts: those of the cube are square.
-fn is_whole(proposal: &Proposal, rasters: &[Raster]) -> bool {
+/// Whether the pictures hold the charts: where there are many, and where nobody has said how they lie, each is square.
+fn is_whole(proposal: &Proposal, rasters: &[Raster], is_laid_out: bool) -> bool {
     let shape = plain_shape(proposal.mapping, proposal.layout, rasters);
-    shape.is_some_and(|shape| shape.charts.len() != 6 || shape.size[0] == shape.size[1])
+    shape.is_some_and(|shape| match shape.charts.len() {
+        1 => true,
+        2 if is_laid_out => true,
+        _ => shape.size[0] == shape.size[1],
+    })
 }
 
 /// The shape of the map, after all that is said of its orientation; and how its faces would meet, when they do not.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::detect::{Detection, Known, Proposal, detect};
-use super::face_files::{Named, named};
+use super::face_files::{Named, named, of_charts};
 use super::load::{self, Format};
 use super::sanitize::sanitize_raster;
 use super::{
@@ -136,15 +136,22 @@ fn all_paths(
     hints: &OpenHints,
     notes: &mut Vec<String>,
 ) -> Result<Vec<PathBuf>, LoadProblem> {
-    let is_alone = hints.layout.is_some_and(|layout| layout != Layout::Faces)
-        || hints
-            .mapping
-            .is_some_and(|mapping| mapping.info().chart_count() != 6);
     let [path] = paths else {
         return Ok(paths.to_vec());
     };
-    if is_alone {
+    if hints.layout.is_some_and(|layout| layout != Layout::Faces) {
         return Ok(paths.to_vec());
+    }
+    let charts = hints.mapping.map(|mapping| mapping.info().charts);
+    if charts.is_some_and(|charts| charts.len() == 1) {
+        return Ok(paths.to_vec());
+    }
+    if let Some(charts) = charts.filter(|charts| charts.len() != 6) {
+        return match of_charts(path, charts).map_err(LoadProblem::Io)? {
+            Some(Ok(files)) => Ok(files),
+            Some(Err(missing)) => Err(not_there(&charts.len().to_string(), &missing)),
+            None => Ok(paths.to_vec()),
+        };
     }
     match named(path).map_err(LoadProblem::Io)? {
         Named::Six(six) => Ok(six.into()),
@@ -155,20 +162,25 @@ fn all_paths(
             ));
             Ok(paths.to_vec())
         }
-        Named::Missing(names) if !names.is_empty() => Err(LoadProblem::Unclear(format!(
-            "of the six files for `%f` {} not there: {}; add what is missing",
-            if names.len() == 1 {
-                "one is"
-            } else {
-                "some are"
-            },
-            names.join(", ")
-        ))),
+        Named::Missing(names) if !names.is_empty() => Err(not_there("six", &names)),
         Named::Missing(_) => Err(LoadProblem::Unclear(
             "no six files have usual names of faces for `%f`; name them px nx py ny pz nz"
                 .to_owned(),
         )),
     }
+}
+
+/// What is said of files that are missing for `%f`.
+fn not_there(count: &str, names: &[String]) -> LoadProblem {
+    LoadProblem::Unclear(format!(
+        "of the {count} files for `%f` {} not there: {}; add what is missing",
+        if names.len() == 1 {
+            "one is"
+        } else {
+            "some are"
+        },
+        names.join(", ")
+    ))
 }
 
 /// The pictures of some files, and what the first of them says.

@@ -13,6 +13,7 @@
 mod area;
 mod beyond;
 mod charts;
+mod healpix;
 mod inputs;
 mod meridians;
 mod published;

@@ -7,7 +7,8 @@ use sixfold::imaging::save::{Content, SaveOptions, format_of_path, save};
 use sixfold::imaging::srgb::linear_from_srgb8;
 use sixfold::imaging::{
     Channels, Container, Environment, EnvmapKind, FACE_COLORS, Level, MapFile, OpenHints,
-    OpenedMap, Pictures, Preview, Progress, Raster, Samples, Siting, Stored, Transfer, open_map,
+    OpenedMap, Pictures, Preview, Progress, Raster, Samples, Siting, Stored, Transfer, face_name,
+    open_map,
 };
 use sixfold::mapping::{Arrangement, Frame, Layout, MappingId};
 use sixfold::math::Vec3;
@@ -68,6 +69,73 @@ fn every_mapping_opens_in_every_layout_when_it_is_said() {
                 );
             }
         }
+    }
+}
+
+/// The mapping's name is enough for a picture as an export lays it, and for a file of each chart.
+#[test]
+fn a_named_mapping_opens_as_it_is_exported() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, part) = (
+        folder.path().join("map.exr"),
+        folder.path().join("m_%f.exr"),
+    );
+    for mapping in MappingId::ALL.iter().copied() {
+        let info = mapping.info();
+        let hints = OpenHints {
+            mapping: Some(mapping),
+            siting: Some(Siting::Centre),
+            ..OpenHints::default()
+        };
+        let laid = Laid::new(mapping, info.layout, 24);
+        let pictures = laid.draw(&laid.shape(), photograph);
+        write(&whole, Content::Raster(&pictures[0]), None);
+        let opened = open(&whole, &hints).unwrap();
+        assert_eq!(opened.chosen.layout, info.layout, "{mapping}");
+        assert_eq!(opened.map.rasters(), pictures);
+        if info.charts.len() == 1 {
+            continue;
+        }
+        let laid = Laid::new(mapping, Layout::Faces, 24);
+        let pictures = laid.draw(&laid.shape(), photograph);
+        let files = info.charts.iter().map(|chart| {
+            let name = format!("m_{}.exr", face_name(chart));
+            folder.path().join(name)
+        });
+        let files: Vec<PathBuf> = files.collect();
+        for (file, picture) in files.iter().zip(&pictures) {
+            write(file, Content::Raster(picture), None);
+        }
+        let opened = open(&part, &hints).unwrap();
+        assert_eq!(opened.chosen.layout, Layout::Faces, "{mapping}");
+        assert_eq!(opened.map.rasters(), pictures);
+        // Control: without the last chart's file it is said which one is missing.
+        let last = files.last().unwrap();
+        std::fs::remove_file(last).unwrap();
+        let error = open(&part, &hints).unwrap_err();
+        let name = last.file_name().unwrap().to_str().unwrap();
+        assert!(
+            error.contains("one is not there") && error.contains(name),
+            "{error}"
+        );
+    }
+    // Control: what has not the shape is refused.
+    let laid = Laid::new(MappingId::Paraboloid, Layout::Pair, 24);
+    write(
+        &whole,
+        Content::Raster(&laid.draw(&laid.shape(), photograph)[0]),
+        None,
+    );
+    for mapping in [MappingId::Healpix, MappingId::Cube] {
+        let hints = OpenHints {
+            mapping: Some(mapping),
+            ..OpenHints::default()
+        };
+        let error = open(&whole, &hints).unwrap_err();
+        assert!(
+            error.contains(&format!("cannot be `{mapping}`;")),
+            "{error}"
+        );
     }
 }
 

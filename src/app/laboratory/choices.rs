@@ -6,7 +6,7 @@ use super::words::{NOT_MEASURED, budget_text};
 use crate::app::action::Action;
 use crate::app::command::Command;
 use crate::app::dialogs::{Dialog, SaveDialog};
-use crate::app::lists::list_ui;
+use crate::app::lists::{grouped_ui, list_ui, scrolled_ui};
 use crate::app::model::Model;
 use crate::app::state::{BUDGET_TEXELS, LaboratoryState};
 use crate::lab::bench::Way;
@@ -108,7 +108,7 @@ const LIST_WIDTH: f32 = 190.0;
 /// The mappings beside the one that is looked up.
 fn mappings_ui(ui: &mut Ui, map: MappingId, laboratory: &mut LaboratoryState) {
     ui.menu_button("Mappings …", |ui| {
-        for other in MappingId::ALL.iter().copied() {
+        let mut entry_ui = |ui: &mut Ui, other: MappingId| {
             let mut is_shown = other == map || laboratory.beside.contains(&other);
             let checkbox = egui::Checkbox::new(&mut is_shown, other.info().name);
             if ui.add_enabled(other != map, checkbox).changed() {
@@ -117,7 +117,10 @@ fn mappings_ui(ui: &mut Ui, map: MappingId, laboratory: &mut LaboratoryState) {
                     laboratory.beside.push(other);
                 }
             }
-        }
+        };
+        let all = MappingId::ALL.iter().copied();
+        let family = |map: &MappingId| Some(map.info().family);
+        scrolled_ui(ui, |ui| grouped_ui(ui, all, family, &mut entry_ui));
     });
 }
 

@@ -76,8 +76,8 @@ pub(in crate::cli) struct ConvertOptions {
         help_heading = "What comes out"
     )]
     pub size: Option<u32>,
-    /// How the charts lie: cross, vertical-cross, vertical-cross-upright, row, column, 3x2, 3x2-turned, or faces, a file
-    /// each
+    /// How the charts lie: cross, vertical-cross, vertical-cross-upright, row, column, 3x2, 3x2-turned, staircase, or faces, a
+    /// file each
     #[arg(long, value_name = "LAYOUT", help_heading = "What comes out")]
     pub layout: Option<String>,
     /// Convert only these charts, by their names: +x,-z
