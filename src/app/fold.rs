@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 
-pub use lines::{Kind, Line, lines};
+pub use lines::{Line, lines, seen};
 pub use panel::{fold_ui, surface_ui};
 pub use view::{Quad, Surface};
 

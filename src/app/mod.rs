@@ -32,6 +32,7 @@ pub mod labs;
 mod lists;
 pub mod loss;
 mod loss_panel;
+mod map_lines;
 mod map_panel;
 mod marks;
 mod material_panel;

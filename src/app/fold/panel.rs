@@ -3,10 +3,11 @@
 use egui::epaint::{Mesh, Vertex};
 use egui::{Align2, Color32, Pos2, RichText, Sense, Slider, Ui, pos2, vec2};
 
-use super::lines::{Kind, lines};
+use super::lines::lines;
 use super::view::{Quad, Surface};
 use crate::app::action::{Action, probe_at};
 use crate::app::distortion::{HeatWanted, Seen, paint_legend};
+use crate::app::map_lines::Kind;
 use crate::app::marks::{cross_mark, edged_line, edged_text};
 use crate::app::model::Model;
 use crate::app::state::FoldState;

@@ -1,0 +1,147 @@
+//! The lines of a map as lines of chart points: borders, equal u and v, the six great circles, Tissot's ellipses. Where they are seen is
+//! for those who draw them.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use super::state::Overlays;
+use crate::lab::metrics::tissot::{OUTLINE, indicatrices};
+use crate::mapping::cube_face::GREAT_CIRCLES;
+use crate::mapping::{ChartPoint, Domain, MappingId};
+use crate::math::Vec3;
+
+/// What a line is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The border of a chart.
+    Border,
+    /// Equal u or v.
+    Grid,
+    /// The great circle of that index, A to F.
+    GreatCircle(usize),
+    /// An image of a circle of the sphere.
+    Ellipse,
+}
+
+/// A line whose points may jump from one chart to another.
+#[derive(Clone, Debug)]
+pub struct MapLine {
+    /// What it is.
+    pub kind: Kind,
+    /// Its points, near to one another but for jumps.
+    pub points: Vec<ChartPoint<f64>>,
+}
+
+/// Points along a side of a chart, and around a quarter of a circle.
+const STEPS: u32 = 48;
+/// Parts into which the lines of equal u and v divide a chart.
+pub const PARTS: [u32; 2] = [8, 8];
+
+/// The lines that are switched on, and the borders; lines of equal u and v part a chart into so many columns and rows.
+pub fn map_lines(map: MappingId, overlays: Overlays, parts: [u32; 2]) -> Vec<MapLine> {
+    let charts = 0..map.info().chart_count();
+    let mut lines = Vec::new();
+    let mut add = |kind: Kind, points: Vec<ChartPoint<f64>>| lines.push(MapLine { kind, points });
+    if overlays.grid {
+        for chart in charts.clone() {
+            for (side, parts) in parts.into_iter().enumerate() {
+                for part in 1..parts {
+                    let fixed = f64::from(part) / f64::from(parts);
+                    add(Kind::Grid, equal(map, chart, side, fixed));
+                }
+            }
+        }
+    }
+    for chart in charts {
+        add(Kind::Border, border(map, chart));
+    }
+    if overlays.great_circles {
+        for (index, (_, normal)) in GREAT_CIRCLES.into_iter().enumerate() {
+            add(Kind::GreatCircle(index), great_circle(map, normal));
+        }
+    }
+    if overlays.ellipses {
+        for ellipse in indicatrices(map, f64::from(overlays.ellipses_deg)) {
+            let mut points: Vec<ChartPoint<f64>> = ellipse.outline(OUTLINE).collect();
+            points.extend(points.first().copied());
+            // Beyond its chart another one lies, for which it does not stand.
+            let is_on = |p: &ChartPoint<f64>| p.is_on(map.info().chart_count());
+            for piece in points.chunk_by(|a, b| is_on(a) == is_on(b)) {
+                if piece.first().is_some_and(is_on) {
+                    add(Kind::Ellipse, piece.to_vec());
+                }
+            }
+        }
+    }
+    lines
+}
+
+/// True where a line goes on from one point to the next: on one chart, without a jump from one of its borders to another.
+pub fn goes_on(from: ChartPoint<f64>, to: ChartPoint<f64>) -> bool {
+    /// Longer steps of (u, v) jump.
+    const JUMP: f64 = 0.25;
+    let step = (from.u - to.u).abs().max((from.v - to.v).abs());
+    from.chart == to.chart && step < JUMP
+}
+
+/// A line of equal u (`side` 0) or v (1), as far as it is in the domain.
+fn equal(map: MappingId, chart: u32, side: usize, fixed: f64) -> Vec<ChartPoint<f64>> {
+    let along = |k: u32| {
+        let c = 2.0 * f64::from(k) / f64::from(STEPS) - 1.0;
+        match map.info().domain {
+            Domain::Square => 0.5 + 0.5 * c,
+            // Denser towards the rim, where directions may follow like a root.
+            Domain::Disc => {
+                let half = (0.25 - (fixed - 0.5) * (fixed - 0.5)).max(0.0).sqrt();
+                0.5 + half * (FRAC_PI_2 * c).sin()
+            }
+        }
+    };
+    (0..=STEPS)
+        .map(|k| match side {
+            0 => ChartPoint::new(chart, fixed, along(k)),
+            _ => ChartPoint::new(chart, along(k), fixed),
+        })
+        .collect()
+}
+
+/// Once around a chart.
+fn border(map: MappingId, chart: u32) -> Vec<ChartPoint<f64>> {
+    let count = 4 * STEPS;
+    (0..=count)
+        .map(|k| match map.info().domain {
+            Domain::Disc => {
+                let (sin, cos) = (TAU * f64::from(k) / f64::from(count)).sin_cos();
+                ChartPoint::new(chart, 0.5 + 0.5 * cos, 0.5 + 0.5 * sin)
+            }
+            Domain::Square => {
+                let c = f64::from(k % STEPS) / f64::from(STEPS);
+                let [u, v] = match k / STEPS % 4 {
+                    0 => [c, 0.0],
+                    1 => [1.0, c],
+                    2 => [1.0 - c, 1.0],
+                    _ => [0.0, 1.0 - c],
+                };
+                ChartPoint::new(chart, u, v)
+            }
+        })
+        .collect()
+}
+
+fn great_circle(map: MappingId, normal: [i8; 3]) -> Vec<ChartPoint<f64>> {
+    let normal = Vec3::<f64>::from_f64(normal.map(f64::from)).normalized();
+    // The axis that the normal has nothing of lies on the circle.
+    let on = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+        .map(Vec3::from_f64)
+        .into_iter()
+        .find(|axis| axis.dot(normal) == 0.0);
+    let Some(on) = on else { return Vec::new() };
+    let across = normal.cross(on);
+    let count = 8 * STEPS;
+    (0..=count)
+        .filter_map(|k| {
+            // Between the places where u is not told, the poles.
+            let (sin, cos) = (TAU * (f64::from(k) + 0.5) / f64::from(count)).sin_cos();
+            map.forward(on * cos + across * sin)
+        })
+        .collect()
+}
