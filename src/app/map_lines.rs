@@ -4,6 +4,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::state::Overlays;
+use crate::imaging::computed::cross_outlines;
 use crate::lab::metrics::tissot::{OUTLINE, indicatrices};
 use crate::mapping::cube_face::GREAT_CIRCLES;
 use crate::mapping::{ChartPoint, Domain, MappingId};
@@ -20,6 +21,8 @@ pub enum Kind {
     GreatCircle(usize),
     /// An image of a circle of the sphere.
     Ellipse,
+    /// The outline of a cross; true for the icosahedron's.
+    Cross(bool),
 }
 
 /// A line whose points may jump from one chart to another.
@@ -73,6 +76,16 @@ pub fn map_lines(map: MappingId, overlays: Overlays, parts: [u32; 2]) -> Vec<Map
         }
     }
     lines
+}
+
+/// The outlines of the crosses at the vertices of icosahedron and dodecahedron.
+pub fn crosses(map: MappingId) -> Vec<MapLine> {
+    let outlines = cross_outlines().into_iter();
+    let line = |(is_red, outline): (bool, Vec<Vec3<f64>>)| MapLine {
+        kind: Kind::Cross(is_red),
+        points: on_map(map, &outline),
+    };
+    outlines.map(line).collect()
 }
 
 /// True where a line goes on from one point to the next: on one chart, without a jump from one of its borders to another.
@@ -137,11 +150,42 @@ fn great_circle(map: MappingId, normal: [i8; 3]) -> Vec<ChartPoint<f64>> {
     let Some(on) = on else { return Vec::new() };
     let across = normal.cross(on);
     let count = 8 * STEPS;
-    (0..=count)
-        .filter_map(|k| {
+    let dirs: Vec<_> = (0..=count)
+        .map(|k| {
             // Between the places where u is not told, the poles.
             let (sin, cos) = (TAU * (f64::from(k) + 0.5) / f64::from(count)).sin_cos();
-            map.forward(on * cos + across * sin)
+            on * cos + across * sin
         })
-        .collect()
+        .collect();
+    on_map(map, &dirs)
+}
+
+/// A line of the sphere on the map. Where it leaves a chart its points go up to the border.
+fn on_map(map: MappingId, dirs: &[Vec3<f64>]) -> Vec<ChartPoint<f64>> {
+    /// Halvings of a step: then the line's gap is less than a pixel in any picture.
+    const HALVINGS: u32 = 16;
+    let mut points: Vec<ChartPoint<f64>> = Vec::new();
+    for pair in dirs.windows(2) {
+        let [Some(from), Some(to)] = [pair[0], pair[1]].map(|dir| map.own_point(dir)) else {
+            continue;
+        };
+        if points.last() != Some(&from) {
+            points.push(from);
+        }
+        if !goes_on(from, to) {
+            let (mut low, mut high) = (pair[0], pair[1]);
+            let (mut last, mut next) = (from, to);
+            for _ in 0..HALVINGS {
+                let middle = (low + high).normalized();
+                match map.own_point(middle) {
+                    Some(point) if goes_on(last, point) => (low, last) = (middle, point),
+                    Some(point) => (high, next) = (middle, point),
+                    None => break,
+                }
+            }
+            points.extend([last, next]);
+        }
+        points.push(to);
+    }
+    points
 }

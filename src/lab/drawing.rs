@@ -7,23 +7,36 @@ use crate::imaging::computed::strokes::Strokes;
 /// Red, green and blue, 8 bits sRGB.
 pub type Colour = [u8; 3];
 
-/// One part of a drawing; places in pixels, x to the right, y down.
-#[derive(Clone, Debug)]
-enum Shape {
+/// One part of a drawing; places and lengths in pixels, x to the right, y down.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Lines from point to point.
     Line {
+        /// The points.
         points: Vec<[f64; 2]>,
+        /// How wide the pen is.
         width: f64,
+        /// Its ink.
         colour: Colour,
     },
+    /// A filled circle.
     Disc {
+        /// Its middle.
         at: [f64; 2],
+        /// Its radius.
         radius: f64,
+        /// Its ink.
         colour: Colour,
     },
+    /// Words in one line.
     Words {
+        /// Their upper left corner.
         at: [f64; 2],
+        /// Height of the letters.
         size: f64,
+        /// What they say.
         text: String,
+        /// Their ink.
         colour: Colour,
     },
 }
@@ -47,6 +60,11 @@ impl Drawing {
     /// Pixels across and down.
     pub fn size(&self) -> [u32; 2] {
         self.size
+    }
+
+    /// The shapes, the last on top.
+    pub fn shapes(&self) -> &[Shape] {
+        &self.shapes
     }
 
     /// Lines from point to point.

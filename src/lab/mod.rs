@@ -20,6 +20,7 @@ pub mod metrics;
 pub mod ranking;
 pub mod report;
 pub mod run;
+pub mod sampling;
 pub mod scatter;
 pub mod stress;
 pub mod texel_density;

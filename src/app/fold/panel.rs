@@ -217,7 +217,7 @@ fn pen(kind: Kind) -> (f32, Color32) {
             let [r, g, b] = GREAT_CIRCLE_COLORS[index];
             (2.0, Color32::from_rgb(r, g, b))
         }
-        Kind::Ellipse => (1.2, theme::TEXEL),
+        Kind::Ellipse | Kind::Cross(_) => (1.2, theme::TEXEL),
     }
 }
 

@@ -53,6 +53,48 @@ struct Cross {
     color: [f32; 3],
 }
 
+impl Cross {
+    /// Once around it, a point at least every half degree of an arm.
+    fn outline(&self) -> Vec<Vec3<f64>> {
+        /// Points along a side of an arm.
+        const STEPS: u32 = 16;
+        // On the plane that touches the sphere great circles are straight: an arm's sides are so far off its middle line, its end at its
+        // length's tangent. `color` has the same sides at the end of the arm but for the square of the width.
+        let [length, width] = [HALF_LENGTH_RAD, HALF_WIDTH_RAD].map(f64::tan);
+        let on = |e: f64, n: f64| (self.center + self.east * e + self.north * n).normalized();
+        let mut outline = Vec::new();
+        for quarter in 0..4 {
+            let turn = |e: f64, n: f64| match quarter {
+                0 => on(e, n),
+                1 => on(-n, e),
+                2 => on(-e, -n),
+                _ => on(n, -e),
+            };
+            // From the inner corner out, across the end, and back to the next inner corner.
+            let corners = [
+                [width, -width],
+                [length, -width],
+                [length, width],
+                [width, width],
+            ];
+            for side in corners.windows(2) {
+                for k in 0..STEPS {
+                    let t = f64::from(k) / f64::from(STEPS);
+                    let along = |i: usize| side[0][i] + (side[1][i] - side[0][i]) * t;
+                    outline.push(turn(along(0), along(1)));
+                }
+            }
+        }
+        outline.extend(outline.first().copied());
+        outline
+    }
+}
+
+/// The outlines of all crosses as closed lines of unit directions; true for those of the icosahedron, which are red.
+pub fn cross_outlines() -> Vec<(bool, Vec<Vec3<f64>>)> {
+    Crosses::new().outlines().collect()
+}
+
 pub(super) struct Crosses(Vec<Cross>);
 
 impl Crosses {
@@ -73,6 +115,13 @@ impl Crosses {
         Self(red.chain(colored(dodecahedron_vertices(), BLUE)).collect())
     }
 
+    /// The outline of each cross as unit directions, closed, and true for those of the icosahedron.
+    fn outlines(&self) -> impl Iterator<Item = (bool, Vec<Vec3<f64>>)> {
+        self.0
+            .iter()
+            .map(|cross| (cross.color == RED, cross.outline()))
+    }
+
     pub(super) fn color(&self, dir: Vec3<f64>, texel_rad: f64) -> [f32; 3] {
         // No two vertices are nearer than 37 degrees, so only one cross can be here.
         let reach = (HALF_LENGTH_RAD + HALF_WIDTH_RAD + texel_rad).cos();
@@ -88,5 +137,41 @@ impl Crosses {
                 .min(coverage(beyond, 0.0, texel_rad))
         };
         blend(PAPER, cross.color, arm(e, n).max(arm(n, e)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::angle_rad;
+
+    #[test]
+    fn an_outline_parts_ink_from_paper() {
+        const TEXEL_RAD: f64 = 1e-6;
+        let crosses = Crosses::new();
+        let outlines = cross_outlines();
+        assert_eq!(outlines.len(), 32);
+        assert_eq!(outlines.iter().filter(|(is_red, _)| *is_red).count(), 12);
+        for ((is_red, outline), cross) in outlines.iter().zip(&crosses.0) {
+            let ink = if *is_red { RED } else { BLUE };
+            for dir in outline {
+                // Towards the middle of the arm or of the cross, and away from it.
+                let (e, n) = (dir.dot(cross.east), dir.dot(cross.north));
+                let off = if e.abs() > n.abs() {
+                    cross.north * n
+                } else {
+                    cross.east * e
+                };
+                let along = *dir - cross.center * dir.dot(cross.center) - off;
+                let moved = |by: f64| (*dir + (off * 0.5 + along * 0.01) * by).normalized();
+                let is = |dir, wanted: [f32; 3]| {
+                    let found = crosses.color(dir, TEXEL_RAD);
+                    found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-6)
+                };
+                assert!(is(moved(-1.0), ink));
+                assert!(is(moved(1.0), PAPER), "control");
+                assert!(angle_rad(dir.to_f64(), cross.center.to_f64()) < 1.1 * HALF_LENGTH_RAD);
+            }
+        }
     }
 }

@@ -16,7 +16,7 @@ use super::{Image, Progress, Stage};
 use crate::mapping::latlong;
 use crate::math::Vec3;
 
-pub use crosses::{dodecahedron_vertices, icosahedron_vertices};
+pub use crosses::{cross_outlines, dodecahedron_vertices, icosahedron_vertices};
 
 /// Rows of a computed environment where nothing else is asked for.
 pub const DEFAULT_HEIGHT: u32 = 1024;

@@ -1,0 +1,316 @@
+//! How a map's texels part the horizon: the cut through the sphere at y = 0, seen from above (the paper's Figure 4).
+
+use std::f64::consts::{PI, TAU};
+
+use super::drawing::{Colour, Drawing};
+use crate::imaging::resample::{chart_size, equal_rows};
+use crate::mapping::{Borders, MappingId};
+use crate::math::Vec3;
+
+/// Texels on a quarter of the horizon that can be asked for.
+pub const QUARTERS: (u32, u32) = (2, 24);
+
+/// The texels of one map around the horizon.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sampling {
+    map: MappingId,
+    /// Where one texel ends and the next one begins: angles from +z towards +x in radians, in [0, 2 pi), rising.
+    borders_rad: Vec<f64>,
+    /// For the angles from each border to the next one, the last to the first: true where the map has texels of its own.
+    is_own: Vec<bool>,
+}
+
+/// The direction on the horizon at an angle from +z towards +x.
+pub fn on_horizon(angle_rad: f64) -> Vec3<f64> {
+    let (sin, cos) = angle_rad.sin_cos();
+    Vec3::new(sin, 0.0, cos)
+}
+
+impl Sampling {
+    /// A map as fine as a cube map with `quarter` texels on a side, by the texels that it has around the horizon.
+    pub fn new(map: MappingId, quarter: u32) -> Self {
+        let quarter = quarter.clamp(QUARTERS.0, QUARTERS.1);
+        let rows = equal_rows(map, MappingId::Cube, [quarter; 2]);
+        let size = chart_size(map, rows).map(f64::from);
+        let texel = |angle_rad: f64| {
+            let point = map.own_point(on_horizon(angle_rad))?;
+            let index = |c: f64, count: f64| (c * count) as u32;
+            Some((
+                point.chart,
+                index(point.u, size[0]),
+                index(point.v, size[1]),
+            ))
+        };
+        /// Steps around: no texel is that small.
+        const STEPS: u32 = 4096;
+        /// Off the round angles, at which texels end.
+        const OFFSET: f64 = 0.37;
+        let angle = |step: u32| TAU * (f64::from(step) + OFFSET) / f64::from(STEPS);
+        let mut borders_rad = Vec::new();
+        for step in 0..STEPS {
+            let (mut low, mut high) = (angle(step), angle(step + 1));
+            let first = texel(low);
+            if first == texel(high) {
+                continue;
+            }
+            while high - low > 4.0 * f64::EPSILON * TAU {
+                let middle = 0.5 * (low + high);
+                if texel(middle) == first {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            borders_rad.push(high.rem_euclid(TAU));
+        }
+        borders_rad.sort_by(f64::total_cmp);
+        let is_own = spans(&borders_rad)
+            .map(|[from, to]| texel(0.5 * (from + to)).is_some())
+            .collect();
+        Self {
+            map,
+            borders_rad,
+            is_own,
+        }
+    }
+
+    /// The mapping.
+    pub fn map(&self) -> MappingId {
+        self.map
+    }
+
+    /// From where to where each texel of the map's own reaches, in radians; the last may end beyond 2 pi.
+    pub fn texels_rad(&self) -> impl Iterator<Item = [f64; 2]> {
+        let owned = spans(&self.borders_rad).zip(&self.is_own);
+        owned.filter_map(|(span, is_own)| is_own.then_some(span))
+    }
+
+    /// The smallest and the largest angle that a texel covers, in radians; `None` when the map has none on the horizon.
+    pub fn extremes_rad(&self) -> Option<[f64; 2]> {
+        let angles = self.texels_rad().map(|[from, to]| to - from);
+        angles.fold(None, |found, angle| {
+            let [least, most] = found.unwrap_or([angle; 2]);
+            Some([least.min(angle), most.max(angle)])
+        })
+    }
+
+    /// What the numbers say, in a line.
+    pub fn caption(&self) -> String {
+        let Some([least, most]) = self.extremes_rad() else {
+            return "nothing of the horizon".to_owned();
+        };
+        let count = self.texels_rad().count();
+        let [small, large] = [least, most].map(|angle| format!("{:.2}", angle.to_degrees()));
+        if small == large {
+            format!("{count} texels of {small} degrees each")
+        } else {
+            let ratio = most / least;
+            format!("{count} texels of {small} to {large} degrees, 1 : {ratio:.2}")
+        }
+    }
+}
+
+/// From each border to the next one, the last to the first.
+fn spans(borders_rad: &[f64]) -> impl Iterator<Item = [f64; 2]> {
+    let next = borders_rad.iter().skip(1).copied();
+    let first = borders_rad.first().map(|first| first + TAU);
+    borders_rad
+        .iter()
+        .copied()
+        .zip(next.chain(first))
+        .map(|(from, to)| [from, to])
+}
+
+/// How far from the middle the map's solid is, cut at the horizon, where the sphere is at 1 and lies in it: the cube around it, the octahedron's
+/// square with its corners ahead and at the sides, or the sphere itself.
+fn reach(map: MappingId, dir: Vec3<f64>) -> f64 {
+    /// The octahedron whose square touches the sphere from outside.
+    const OCTAHEDRON: f64 = std::f64::consts::SQRT_2;
+    match map.info().borders {
+        Borders::CubeEdges => 1.0 / dir.x.abs().max(dir.z.abs()),
+        Borders::FoldedSides => OCTAHEDRON / (dir.x.abs() + dir.z.abs()),
+        _ => 1.0,
+    }
+}
+
+const INK: Colour = [30, 30, 30];
+const RAY: Colour = [160, 160, 160];
+/// Every other texel, so that each is told from its neighbours; two of Okabe and Ito's colours.
+const TEXELS: [Colour; 2] = [[0, 114, 178], [230, 159, 0]];
+const PROBE: Colour = [213, 94, 0];
+
+/// The cuts side by side, or one below the other on a high sheet; with the probe's direction where there is one.
+pub fn drawing(cuts: &[Sampling], probe: Option<Vec3<f64>>, size: [u32; 2]) -> Drawing {
+    let mut drawing = Drawing::new(size);
+    let [width, height] = size.map(f64::from);
+    let count = cuts.len().max(1) as f64;
+    let [across, down] = if width >= height {
+        [width / count, 0.0]
+    } else {
+        [0.0, height / count]
+    };
+    for (k, cut) in cuts.iter().enumerate() {
+        let corner = [across * k as f64, down * k as f64];
+        let cell = [
+            if across > 0.0 { across } else { width },
+            if down > 0.0 { down } else { height },
+        ];
+        draw_cut(&mut drawing, cut, probe, corner, cell);
+    }
+    drawing
+}
+
+fn draw_cut(
+    drawing: &mut Drawing,
+    cut: &Sampling,
+    probe: Option<Vec3<f64>>,
+    corner: [f64; 2],
+    [width, height]: [f64; 2],
+) {
+    /// Letters, of the sheet's smaller side, and the largest of them in pixels.
+    const LETTER: f64 = 0.03;
+    let letter = (LETTER * width.min(height)).clamp(7.0, 20.0);
+    let head = 5.5 * letter;
+    // The solids' corners are at sqrt 2.
+    let radius = (0.5 * width.min(height - head) / std::f64::consts::SQRT_2 * 0.94).max(1.0);
+    let middle = [
+        corner[0] + 0.5 * width,
+        corner[1] + head + 0.5 * (height - head),
+    ];
+    // From above: +z up, +x to the right.
+    let at = |angle: f64, reach: f64| {
+        let dir = on_horizon(angle);
+        [
+            middle[0] + dir.x * reach * radius,
+            middle[1] - dir.z * reach * radius,
+        ]
+    };
+    let solid = |angle: f64| at(angle, reach(cut.map, on_horizon(angle)));
+    let left = corner[0] + letter;
+    drawing.words(
+        cut.map.info().name,
+        [left, corner[1] + letter],
+        1.3 * letter,
+        INK,
+    );
+    drawing.words(
+        &cut.caption(),
+        [left, corner[1] + 3.3 * letter],
+        letter,
+        INK,
+    );
+
+    let pen = 0.08 * letter;
+    for [from, to] in cut.texels_rad() {
+        for end in [from, to] {
+            drawing.line(&[middle, solid(end)], pen, RAY);
+        }
+    }
+    /// Around the circle.
+    const STEPS: u32 = 360;
+    // An eighth of a turn is a whole number of steps, so that the solids' corners are among the points.
+    let around = |place: &dyn Fn(f64) -> [f64; 2]| -> Vec<[f64; 2]> {
+        (0..=STEPS)
+            .map(|k| place(TAU * f64::from(k) / f64::from(STEPS)))
+            .collect()
+    };
+    drawing.line(&around(&solid), 2.0 * pen, INK);
+    for (k, [from, to]) in cut.texels_rad().enumerate() {
+        let steps = ((to - from) / PI * 180.0).ceil().max(1.0) as u32;
+        let arc: Vec<_> = (0..=steps)
+            .map(|k| at(from + (to - from) * f64::from(k) / f64::from(steps), 1.0))
+            .collect();
+        drawing.line(&arc, 5.0 * pen, TEXELS[k % 2]);
+    }
+    for border in &cut.borders_rad {
+        drawing.disc(solid(*border), 3.0 * pen, INK);
+    }
+    drawing.disc(middle, 3.0 * pen, INK);
+    if let Some(dir) = probe.filter(|dir| dir.x != 0.0 || dir.z != 0.0) {
+        let angle = dir.x.atan2(dir.z);
+        drawing.line(&[middle, at(angle, 1.4)], 3.0 * pen, PROBE);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mapping::ChartPoint;
+
+    fn degrees(map: MappingId, quarter: u32) -> [f64; 2] {
+        let found = Sampling::new(map, quarter).extremes_rad().unwrap();
+        found.map(f64::to_degrees)
+    }
+
+    #[test]
+    fn a_cube_parts_the_horizon_by_tangents_and_others_in_equal_angles() {
+        // Four texels on a side end at tangents 0, 1/2 and 1.
+        let inner = 0.5_f64.atan().to_degrees();
+        let [least, most] = degrees(MappingId::Cube, 4);
+        assert!((least - (45.0 - inner)).abs() < 1e-9 && (most - inner).abs() < 1e-9);
+        for map in [MappingId::Latlong, MappingId::Eac] {
+            let [least, most] = degrees(map, 4);
+            let is_even = (least - 22.5).abs() < 1e-9 && (most - 22.5).abs() < 1e-9;
+            assert!(is_even, "{map}");
+        }
+        // The continuous cube map lies between: its first border is where its inverse says.
+        let border: Vec3<f64> = MappingId::Ccm
+            .inverse(ChartPoint::new(4, 0.75, 0.5))
+            .unwrap();
+        let inner = border.x.atan2(border.z).to_degrees();
+        let ccm = degrees(MappingId::Ccm, 4);
+        let expected = [inner.min(45.0 - inner), inner.max(45.0 - inner)];
+        assert!(
+            ccm.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9),
+            "{ccm:?}"
+        );
+        assert!(ccm[1] / ccm[0] < 1.2);
+        assert!(most - least > 8.0, "control: a cube's texels differ");
+    }
+
+    #[test]
+    fn the_texels_of_every_map_cover_what_it_holds_of_the_horizon_once() {
+        for &map in MappingId::ALL {
+            let cut = Sampling::new(map, 8);
+            let whole: f64 = cut.texels_rad().map(|[from, to]| to - from).sum();
+            const STEPS: u32 = 100_000;
+            let own = (0..STEPS)
+                .filter(|k| {
+                    let angle = TAU * (f64::from(*k) + 0.5) / f64::from(STEPS);
+                    map.own_point(on_horizon(angle)).is_some()
+                })
+                .count();
+            let own = TAU * own as f64 / f64::from(STEPS);
+            // Each of at most two ends of what it holds lies between two of the angles asked.
+            assert!(
+                (whole - own).abs() < 2.0 * TAU / f64::from(STEPS),
+                "{map}: {whole} of {own}"
+            );
+            let spans: Vec<_> = cut.texels_rad().collect();
+            assert!(
+                spans.windows(2).all(|pair| pair[0][1] <= pair[1][0]),
+                "{map}"
+            );
+            assert!(spans.len() >= 8, "{map}: {}", spans.len());
+        }
+    }
+
+    #[test]
+    fn a_finer_map_has_more_texels_and_the_words_say_how_many() {
+        let of = |quarter| Sampling::new(MappingId::Cube, quarter);
+        assert_eq!(
+            of(4).caption(),
+            "16 texels of 18.43 to 26.57 degrees, 1 : 1.44"
+        );
+        assert_eq!(
+            Sampling::new(MappingId::Eac, 4).caption(),
+            "16 texels of 22.50 degrees each"
+        );
+        assert_eq!(of(8).texels_rad().count(), 32);
+        assert_eq!(of(0), of(QUARTERS.0));
+        let sheet = drawing(&[of(4)], None, [300, 300]);
+        let with_probe = drawing(&[of(4)], Some(Vec3::new(1.0, 0.0, 0.0)), [300, 300]);
+        assert_eq!(sheet.svg().matches("<circle").count(), 17);
+        assert!(with_probe.svg().len() > sheet.svg().len());
+    }
+}
