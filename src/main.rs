@@ -93,6 +93,9 @@ fn draw(options: &RenderOptions) -> Result<(), (u8, String)> {
             Picture::Window => What::Window,
             Picture::Viewport => What::Viewport,
             Picture::Panel(mapping) => What::Panel(mapping),
+            Picture::Panels => What::Panels,
+            Picture::Fold => What::Fold,
+            Picture::Sampling => What::Sampling,
         },
         size: options.size,
         overlays: options.overlays,
@@ -109,11 +112,12 @@ fn figure(options: &FigureOptions) -> u8 {
     status_of(draw_figures(options))
 }
 
-/// The figures that the options name, each into a file of its name.
+/// The figures that the options name, each into a file of its name, and its lines into another one where it is line art.
 #[cfg(feature = "explorer")]
 fn draw_figures(options: &FigureOptions) -> Result<(), (u8, String)> {
     use sixfold::app::figures::Figure;
-    use sixfold::app::picture::{self, Destination, PictureRequest, What};
+    use sixfold::app::line_art::SVG;
+    use sixfold::app::picture::{self, Destination, PictureRequest};
     use sixfold::app::state::AppState;
     use sixfold::imaging::{Environment, atomic};
 
@@ -122,23 +126,31 @@ fn draw_figures(options: &FigureOptions) -> Result<(), (u8, String)> {
     }
     let figures = match Figure::from_id(&options.name) {
         Some(figure) => vec![figure],
-        None if options.name == "all" => Figure::ALL.to_vec(),
+        None if options.name == "all" => Figure::all().collect(),
         None => {
-            let names = Figure::ALL.map(Figure::id).join(", ");
+            let names: Vec<&str> = Figure::all().map(Figure::id).collect();
+            let names = names.join(", ");
             let line = format!("no figure `{}`; there are: all, {names}", options.name);
             return Err((cli::USAGE, line));
         }
     };
     let failed = |error: String| (cli::FAILED, error);
-    let path = |figure: &Figure| options.out.join(figure.id()).with_extension("png");
+    let path = |figure: &Figure, end: &str| options.out.join(figure.id()).with_extension(end);
+    // The view, and its lines where it is line art.
+    let ends = |figure: &Figure| {
+        let lines = figure.what().is_line_art().then_some(SVG);
+        std::iter::once("png").chain(lines)
+    };
     std::fs::create_dir_all(&options.out).map_err(|error| {
         let folder = options.out.display();
         failed(format!("the folder cannot be made ({error}): {folder}"))
     })?;
     // Nothing is drawn before all names are found to be free.
     for figure in &figures {
-        atomic::check_name(&path(figure), options.force)
-            .map_err(|error| failed(error.to_string()))?;
+        for end in ends(figure) {
+            atomic::check_name(&path(figure, end), options.force)
+                .map_err(|error| failed(error.to_string()))?;
+        }
     }
     for figure in &figures {
         let mut state = AppState::default();
@@ -146,16 +158,18 @@ fn draw_figures(options: &FigureOptions) -> Result<(), (u8, String)> {
         if let Some(id) = &options.environment {
             state.environment = Environment::from_id(id);
         }
-        let request = PictureRequest {
-            what: What::Viewport,
-            size: options.size,
-            overlays: false,
-            to: Destination::File {
-                path: path(figure),
-                force: options.force,
-            },
-        };
-        picture::render(&state, &request).map_err(failed)?;
+        for end in ends(figure) {
+            let request = PictureRequest {
+                what: figure.what(),
+                size: options.size,
+                overlays: figure.has_overlays(),
+                to: Destination::File {
+                    path: path(figure, end),
+                    force: options.force,
+                },
+            };
+            picture::render(&state, &request).map_err(failed)?;
+        }
     }
     Ok(())
 }
@@ -165,7 +179,7 @@ fn draw_figures(options: &FigureOptions) -> Result<(), (u8, String)> {
 fn list_figures() -> Result<(), (u8, String)> {
     use sixfold::app::figures::Figure;
     let line = |figure: Figure| format!("{}\t{}\n", figure.id(), figure.title());
-    let text: String = Figure::ALL.map(line).concat();
+    let text: String = Figure::all().map(line).collect();
     cli::print(&text).map_err(|error| (cli::FAILED, error.to_string()))
 }
 

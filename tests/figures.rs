@@ -1,4 +1,4 @@
-//! The figures of optics as small pictures beside the kept ones in `tests/figures`.
+//! The figures as small pictures beside the kept ones in `tests/figures`.
 //!
 //! After a change that is meant to be seen: `UPDATE_FIGURES=1 cargo test --test figures`, then look at every picture.
 
@@ -12,9 +12,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use image::RgbImage;
-use sixfold::app::figures::Figure;
+use sixfold::app::figures::{Figure, Optics};
 use sixfold::app::model::Surroundings;
-use sixfold::app::picture::{self, Destination, PictureRequest, What};
+use sixfold::app::picture::{self, Destination, PictureRequest};
 use sixfold::app::state::AppState;
 use sixfold::gpu::Gpu;
 use sixfold::imaging::{Environment, Progress};
@@ -25,7 +25,7 @@ fn kept_path(figure: Figure, gpu: &Gpu) -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/figures");
     // On GL a triangle takes what is not interpolated from its last vertex, elsewhere from its first.
     let is_gl = gpu.adapter_info.backend == wgpu::Backend::Gl;
-    let end = if is_gl && figure == Figure::PerVertex {
+    let end = if is_gl && figure == Figure::Optics(Optics::PerVertex) {
         "-gl"
     } else {
         ""
@@ -41,9 +41,9 @@ fn drawn(gpu: &Gpu, surroundings: &Surroundings, figure: Figure) -> RgbImage {
     };
     figure.show(&mut state);
     let request = PictureRequest {
-        what: What::Viewport,
+        what: figure.what(),
         size: SIZE,
-        overlays: false,
+        overlays: figure.has_overlays(),
         to: Destination::Clipboard,
     };
     let progress = Progress::new();

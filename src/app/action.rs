@@ -10,12 +10,11 @@ use crate::optics::Material;
 use crate::scene::{Camera, Object};
 
 use super::arrangement::Pane;
-use super::figures::Figure;
 use super::probe;
 use super::state::{
     AppState, BudgetState, CurvesState, EyeRay, FoldState, FormState, InspectorState,
-    LaboratoryState, LossState, Overlays, PanelState, RankingState, StabilityState, StoryState,
-    unit,
+    LaboratoryState, LossState, Overlays, PanelState, RankingState, SamplingState, StabilityState,
+    StoryState, unit,
 };
 
 /// One change of the state.
@@ -43,8 +42,6 @@ pub enum Action {
     SetMaterial(Box<Material>),
     /// Put another material right of the divider, or take it away.
     SetCompareMaterial(Option<Box<Material>>),
-    /// Show a figure of the seed articles.
-    ShowFigure(Figure),
     /// Show or hide a pane; the viewport always is shown.
     SetPaneOpen(Pane, bool),
     /// Other curves.
@@ -67,6 +64,8 @@ pub enum Action {
     SetFoldCamera(Camera),
     /// Show or hide the ranking, or ask it something else.
     SetRanking(Box<RankingState>),
+    /// Show or hide the cut through the horizon, or compare something else in it.
+    SetSampling(SamplingState),
     /// Look a mapping up and show its panel, beside the others.
     OpenMapping(MappingId),
     /// Compute a mapping, which is then looked up, by the evaluator of that name.
@@ -137,6 +136,7 @@ impl Action {
             Self::SetLaboratory(_) => Some(("laboratory", None)),
             Self::SetFold(_) | Self::SetFoldCamera(_) => Some(("fold", None)),
             Self::SetRanking(_) => Some(("ranking", None)),
+            Self::SetSampling(_) => Some(("sampling", None)),
             Self::SetPanelView(view) => Some(("panel", Some(view.mapping))),
             _ => None,
         }
@@ -187,10 +187,6 @@ pub fn apply(state: &mut AppState, action: Action) {
         Action::SetCompareMaterial(material) => {
             state.compare_material = material.map(|m| m.sanitized());
         }
-        Action::ShowFigure(figure) => {
-            figure.show(state);
-            draw_formula(state);
-        }
         Action::SetPaneOpen(pane, open) => set_open(state, pane, open),
         Action::SetCurves(curves) => state.curves = curves,
         Action::SetStory(story) => {
@@ -222,6 +218,10 @@ pub fn apply(state: &mut AppState, action: Action) {
         Action::SetRanking(ranking) => {
             set_open(state, Pane::Ranking, ranking.open);
             state.ranking = ranking.sanitized();
+        }
+        Action::SetSampling(sampling) => {
+            set_open(state, Pane::Sampling, sampling.open);
+            state.sampling = sampling.sanitized();
         }
         Action::OpenMapping(mapping) => {
             set_mapping(state, mapping);
@@ -302,7 +302,7 @@ fn set_open(state: &mut AppState, pane: Pane, open: bool) {
 }
 
 /// The curve of the material's formula is among those that are drawn.
-fn draw_formula(state: &mut AppState) {
+pub(super) fn draw_formula(state: &mut AppState) {
     let formula = state.material.formula;
     if !state.curves.shown.contains(&formula) {
         state.curves.shown.push(formula);

@@ -31,11 +31,13 @@ pub enum Pane {
     Fold,
     /// All mappings in the order of a criterion.
     Ranking,
+    /// How evenly two mappings part the horizon.
+    Sampling,
 }
 
 impl Pane {
     /// The panes that are read more than looked at: the window's menu lists them, and they need height.
-    pub const READ: [Self; 8] = [
+    pub const READ: [Self; 9] = [
         Self::Curves,
         Self::Story,
         Self::Loss,
@@ -44,6 +46,7 @@ impl Pane {
         Self::Fold,
         Self::Budget,
         Self::Ranking,
+        Self::Sampling,
     ];
 
     /// Its title.
@@ -59,6 +62,7 @@ impl Pane {
             Self::Laboratory => "Run time and error",
             Self::Fold => "Fold and unfold",
             Self::Ranking => "Which mapping is best?",
+            Self::Sampling => "Sampling of the horizon",
         }
     }
 }

@@ -87,9 +87,9 @@ pub fn menu_ui(ui: &mut Ui, model: &mut Model<'_>, dialog: &mut Option<Dialog>) 
             }
         });
         ui.menu_button("Figures", |ui| {
-            for figure in Figure::ALL {
+            for figure in Figure::all() {
                 if ui.button(figure.title()).clicked() {
-                    model.push(Action::ShowFigure(figure));
+                    model.push(Command::ShowFigure(figure));
                     ui.close();
                 }
             }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::action::Action;
 use super::dialogs::Dialog;
 use super::export::Export;
+use super::figures::Figure;
 use super::picture::PictureRequest;
 use crate::imaging::{Environment, MapFile};
 
@@ -27,6 +28,8 @@ pub enum Command {
     Browse,
     /// Open a scene, a picture that holds a scene, or an environment.
     Open(PathBuf),
+    /// Show a figure.
+    ShowFigure(Figure),
     /// Save the scene.
     SaveScene {
         /// The file.

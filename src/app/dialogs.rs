@@ -234,7 +234,7 @@ pub(super) fn buttons_ui(
 fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) -> bool {
     ui.heading("Save a picture");
     ui.label(
-        "Drawn anew at the size you choose. The PNG holds the scene, so Sixfold can open it again.",
+        "Drawn anew at the size you choose. A PNG holds the scene, so Sixfold can open it again. Panels, the folded map and the sampling of the horizon can also be written as lines: let the name end in .svg.",
     );
     ui.horizontal(|ui| {
         let label = ui.label("of");
@@ -250,6 +250,8 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
                     What::Fold,
                     What::Budget,
                     What::Ranking,
+                    What::Sampling,
+                    What::Panels,
                 ];
                 let all = first.into_iter().chain(maps);
                 lists::entries_ui(
@@ -286,10 +288,14 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
             to,
         };
         let path = fields.path.trim();
-        let is_png = path.to_ascii_lowercase().ends_with(".png");
-        let save = ui.add_enabled(is_png, egui::Button::new("Save"));
-        let save = save.on_disabled_hover_text("The name must end in .png");
-        if save.clicked() || (is_png && is_entered) {
+        let name = path.to_ascii_lowercase();
+        let is_svg = name.ends_with(".svg") && fields.what.is_line_art();
+        let fits = name.ends_with(".png") || is_svg;
+        let save = ui.add_enabled(fits, egui::Button::new("Save"));
+        let save = save.on_disabled_hover_text(
+            "The name must end in .png, or in .svg where the picture is one of lines: a panel, all panels, the folded map, the sampling",
+        );
+        if save.clicked() || (fits && is_entered) {
             let to = Destination::File {
                 path: PathBuf::from(path),
                 force: fields.force,

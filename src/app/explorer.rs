@@ -241,6 +241,8 @@ impl Explorer {
             picture::What::Budget => {
                 super::budget_panel::pictures_ui(ui, model);
             }
+            picture::What::Sampling => super::sampling::sheet_ui(ui, model),
+            picture::What::Panels => super::panels::panels_ui(ui, model),
             picture::What::Ranking => panes::pane_ui(ui, model, Pane::Ranking),
             picture::What::Window => {}
         });
@@ -393,6 +395,11 @@ impl Explorer {
                 }
             }
             Command::Open(path) => self.open(ctx, path),
+            Command::ShowFigure(figure) => {
+                let mut scene = self.scene();
+                figure.show(&mut scene);
+                self.show_scene(ctx, scene);
+            }
             Command::SaveScene { path, force } => self.save_scene(ctx, path, force),
             Command::MakePicture(request) => self.make_picture(ctx, request),
             Command::ShowExport => {

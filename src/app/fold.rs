@@ -8,9 +8,9 @@ use std::sync::Arc;
 
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 
-pub use lines::{Line, lines, seen};
+pub use lines::{Line, letters, lines, seen};
 pub use panel::{fold_ui, surface_ui};
-pub use view::{Quad, Surface};
+pub use view::{CLOSED, Quad, Surface};
 
 use super::follower::Follower;
 use super::labs::Lab;

@@ -36,17 +36,21 @@ pub struct MapLine {
 
 /// Points along a side of a chart, and around a quarter of a circle.
 const STEPS: u32 = 48;
-/// Parts into which the lines of equal u and v divide a chart.
-pub const PARTS: [u32; 2] = [8, 8];
 
-/// The lines that are switched on, and the borders; lines of equal u and v part a chart into so many columns and rows.
-pub fn map_lines(map: MappingId, overlays: Overlays, parts: [u32; 2]) -> Vec<MapLine> {
+/// Columns and rows into which the lines of equal u and v part a chart: where they are meridians and parallels, 15 degrees of longitude each.
+fn parts(map: MappingId) -> [u32; 2] {
+    let is_around = map.parallels().is_some() && map.info().chart_count() == 1;
+    if is_around { [24, 12] } else { [8, 8] }
+}
+
+/// The lines that are switched on, and the borders.
+pub fn map_lines(map: MappingId, overlays: Overlays) -> Vec<MapLine> {
     let charts = 0..map.info().chart_count();
     let mut lines = Vec::new();
     let mut add = |kind: Kind, points: Vec<ChartPoint<f64>>| lines.push(MapLine { kind, points });
     if overlays.grid {
         for chart in charts.clone() {
-            for (side, parts) in parts.into_iter().enumerate() {
+            for (side, parts) in parts(map).into_iter().enumerate() {
                 for part in 1..parts {
                     let fixed = f64::from(part) / f64::from(parts);
                     add(Kind::Grid, equal(map, chart, side, fixed));

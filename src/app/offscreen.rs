@@ -179,8 +179,10 @@ impl Offscreen {
 fn points_scale(what: What, [width, height]: [u32; 2]) -> f32 {
     let usual = match what {
         What::Window => vec2(1920.0, 1200.0),
-        What::Viewport | What::Panel(_) | What::Budget | What::Ranking => vec2(1280.0, 1000.0),
-        What::Microscope | What::Fold => vec2(640.0, 500.0),
+        What::Viewport | What::Panel(_) | What::Panels | What::Budget | What::Ranking => {
+            vec2(1280.0, 1000.0)
+        }
+        What::Microscope | What::Fold | What::Sampling => vec2(640.0, 500.0),
     };
     (width as f32 / usual.x)
         .min(height as f32 / usual.y)

@@ -9,17 +9,17 @@ use super::arrangement::{Arrangement, Pane};
 use super::model::Model;
 use super::state::AppState;
 use super::{
-    budget_panel, curves, fold, laboratory, loss_panel, map_panel, ranking, stability_panel, story,
-    viewport,
+    budget_panel, curves, fold, laboratory, loss_panel, map_panel, ranking, sampling,
+    stability_panel, story, viewport,
 };
 
 /// The first arrangement: the viewport above a grid of the open panels.
 pub fn first_tree(state: &AppState) -> Tree<Pane> {
     let mut tiles = Tiles::default();
     let viewport = tiles.insert_pane(Pane::Viewport);
-    let open = state.panels.iter().filter(|p| p.open);
-    let maps: Vec<TileId> = open
-        .map(|p| tiles.insert_pane(Pane::Map(p.mapping)))
+    let maps: Vec<TileId> = state
+        .open_panels()
+        .map(|mapping| tiles.insert_pane(Pane::Map(mapping)))
         .collect();
     let grid = tiles.insert_grid_tile(maps);
     let root = tiles.insert_vertical_tile(vec![viewport, grid]);
@@ -124,6 +124,7 @@ pub(super) fn pane_ui(ui: &mut egui::Ui, model: &mut Model<'_>, pane: Pane) {
         Pane::Laboratory => laboratory::laboratory_ui(ui, model),
         Pane::Fold => fold::fold_ui(ui, model),
         Pane::Ranking => ranking::ranking_ui(ui, model),
+        Pane::Sampling => sampling::sampling_ui(ui, model),
     }
 }
 

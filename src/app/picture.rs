@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::laboratory::Measured;
+use super::line_art;
 use super::model::Surroundings;
 use super::offscreen::Offscreen;
 use super::state::{AppState, Overlays};
@@ -22,6 +23,8 @@ pub enum What {
     Viewport,
     /// The unfolded picture of a mapping.
     Panel(MappingId),
+    /// The panels that are open, side by side.
+    Panels,
     /// What the microscope of the stability pane shows.
     Microscope,
     /// The map that is folded.
@@ -30,6 +33,8 @@ pub enum What {
     Budget,
     /// The pane that ranks all mappings.
     Ranking,
+    /// The cut through the horizon.
+    Sampling,
 }
 
 impl What {
@@ -42,6 +47,8 @@ impl What {
             Self::Fold => "the folded map".to_owned(),
             Self::Budget => "the equal texel budget".to_owned(),
             Self::Ranking => "the ranking".to_owned(),
+            Self::Sampling => "the sampling of the horizon".to_owned(),
+            Self::Panels => "all open panels".to_owned(),
             Self::Panel(mapping) => format!("the panel {}", mapping.info().name),
         }
     }
@@ -50,7 +57,7 @@ impl What {
 /// Where a picture goes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Destination {
-    /// A PNG file with the scene in it.
+    /// A PNG file with the scene in it, or an SVG file of lines by its name's end.
     File {
         /// Its path.
         path: PathBuf,
@@ -139,11 +146,14 @@ fn own_device(gpu: &Gpu) -> Result<Option<Gpu>, String> {
         .map_err(|error| error.to_string())
 }
 
-/// Draws a picture on a device of its own, loading the state's environment first: what `sixfold render` does.
+/// Draws a picture on a device of its own, loading the state's environment first, or writes lines as SVG: what `sixfold render` does.
 ///
 /// # Errors
 /// One line that says what failed; nothing is written then.
 pub fn render(state: &AppState, request: &PictureRequest) -> Result<(), String> {
+    if let Some(written) = line_art::written(state, request) {
+        return written;
+    }
     let progress = Progress::new();
     let gpu = Gpu::headless().map_err(|error| error.to_string())?;
     let environment = state.environment.clone();

@@ -7,6 +7,7 @@ mod laboratory;
 mod loss;
 mod optics;
 mod ranking;
+mod sampling;
 mod stability;
 mod views;
 
@@ -34,6 +35,7 @@ pub use laboratory::{BUDGET_TEXELS, Column, LaboratoryState};
 pub use loss::{LOSS_ROWS, LossState, MOST_MAGNIFIED};
 pub use optics::{CurvesState, StoryKind, StoryState};
 pub use ranking::{Claim, MOST_COMPARED, RankingColumn, RankingPlot, RankingState};
+pub use sampling::SamplingState;
 pub use stability::{LENGTHS, StabilityState};
 pub use views::{InspectorState, Overlays, PanelState, Precision, ZOOM_RANGE};
 
@@ -109,6 +111,8 @@ pub struct AppState {
     pub fold: FoldState,
     /// All mappings in an order.
     pub ranking: RankingState,
+    /// The cut through the horizon.
+    pub sampling: SamplingState,
     /// The controls at the left are shown.
     pub controls_open: bool,
     /// What the inspector shows.
@@ -212,6 +216,7 @@ impl Default for AppState {
             laboratory: LaboratoryState::default(),
             fold: FoldState::default(),
             ranking: RankingState::default(),
+            sampling: SamplingState::default(),
             controls_open: true,
             inspector: InspectorState::default(),
         }
@@ -282,6 +287,7 @@ impl AppState {
         self.budget = self.budget.sanitized();
         self.laboratory = self.laboratory.sanitized();
         self.ranking = self.ranking.sanitized();
+        self.sampling = self.sampling.sanitized();
         self.probe = unit(self.probe);
         self.eye_ray = self.eye_ray.filter(|eye| {
             let ray = eye.ray();
@@ -307,6 +313,11 @@ impl AppState {
     pub fn panel(&self, mapping: MappingId) -> PanelState {
         let found = self.panels.iter().find(|p| p.mapping == mapping);
         found.copied().unwrap_or(PanelState::new(mapping, false))
+    }
+
+    /// The mappings whose panels are shown, in the registry's order.
+    pub fn open_panels(&self) -> impl Iterator<Item = MappingId> {
+        self.panels.iter().filter(|p| p.open).map(|p| p.mapping)
     }
 
     /// The materials left and right of the divider.
@@ -342,6 +353,7 @@ impl AppState {
             Pane::Laboratory => self.laboratory.open,
             Pane::Fold => self.fold.open,
             Pane::Ranking => self.ranking.open,
+            Pane::Sampling => self.sampling.open,
             Pane::Map(mapping) => self.panel(mapping).open,
         }
     }
@@ -358,6 +370,7 @@ impl AppState {
             Pane::Laboratory => Some(&mut self.laboratory.open),
             Pane::Fold => Some(&mut self.fold.open),
             Pane::Ranking => Some(&mut self.ranking.open),
+            Pane::Sampling => Some(&mut self.sampling.open),
             Pane::Map(mapping) => Some(&mut self.panel_mut(mapping)?.open),
         }
     }

@@ -10,7 +10,7 @@ use crate::imaging::png_out::MAX_SIDE;
 pub struct FigureOptions {
     /// The figure's name, or `all`; `sixfold figure list` lists them
     pub name: String,
-    /// The folder for the pictures, NAME.png each; made if it is not there
+    /// The folder for the pictures, NAME.png each, and NAME.svg of line art; made if it is not there
     #[arg(long, value_name = "DIR", default_value = ".")]
     pub out: PathBuf,
     /// Width and height in pixels, 1 to [`MAX_SIDE`] each.

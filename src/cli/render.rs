@@ -13,13 +13,13 @@ use crate::scene::Object;
 /// Options of `sixfold render`. What is `None` stays as the scene has it.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 pub struct RenderOptions {
-    /// The picture to write
-    #[arg(value_name = "OUT.png", value_parser = png_path)]
+    /// The picture to write; panels, the folded map and the sampling also as lines, in .svg
+    #[arg(value_name = "OUT.png|OUT.svg", value_parser = picture_path)]
     pub out: PathBuf,
     /// A saved scene to draw; else the scene that the explorer opens with
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
-    /// What to draw: window, viewport, or panel:MAP
+    /// What to draw: window, viewport, panel:MAP, panels (all that are open), fold or sampling
     #[arg(long, default_value = "window")]
     pub what: Picture,
     /// Width and height in pixels, 1 to [`MAX_SIDE`] each.
@@ -66,13 +66,19 @@ pub enum Picture {
     Viewport,
     /// One mapping's panel.
     Panel(MappingId),
+    /// The open panels side by side.
+    Panels,
+    /// The map between its flat picture and the sphere.
+    Fold,
+    /// The cut through the horizon.
+    Sampling,
 }
 
 /// No part of the explorer has this name.
 #[derive(Debug, thiserror::Error)]
 pub enum UnknownPicture {
     /// The part's own name.
-    #[error("cannot draw `{0}`; it can be window, viewport or panel:MAP")]
+    #[error("cannot draw `{0}`; it can be window, viewport, panel:MAP, panels, fold or sampling")]
     Part(String),
     /// The mapping after `panel:`.
     #[error(transparent)]
@@ -86,20 +92,25 @@ impl FromStr for Picture {
         Ok(match text.split_once(':') {
             None if text == "window" => Self::Window,
             None if text == "viewport" => Self::Viewport,
+            None if text == "panels" => Self::Panels,
+            None if text == "fold" => Self::Fold,
+            None if text == "sampling" => Self::Sampling,
             Some(("panel", map)) => Self::Panel(map.parse()?),
             _ => return Err(UnknownPicture::Part(text.to_owned())),
         })
     }
 }
 
-fn png_path(text: &str) -> Result<PathBuf, String> {
+fn picture_path(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    let is_png = path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("png"));
-    is_png
-        .then_some(path)
-        .ok_or_else(|| "pictures are written as PNG: the name must end in .png".to_owned())
+    let is = |end: &str| {
+        path.extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case(end))
+    };
+    let fits = is("png") || is("svg");
+    fits.then_some(path).ok_or_else(|| {
+        "pictures are written as PNG, lines as SVG: the name must end in .png or .svg".to_owned()
+    })
 }
 
 pub(super) fn size_px(text: &str) -> Result<[u32; 2], String> {

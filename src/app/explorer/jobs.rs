@@ -11,6 +11,7 @@ use crate::app::dialogs::{Dialog, ball_from};
 use crate::app::export::Export;
 use crate::app::files::{self, Opened};
 use crate::app::job::{Job, Outcome};
+use crate::app::line_art;
 use crate::app::model::{JobLine, Surroundings};
 use crate::app::object::{BodyKey, Jobs, News, job_line};
 use crate::app::panes;
@@ -142,6 +143,10 @@ impl Explorer {
     }
 
     pub(super) fn make_picture(&mut self, ctx: &Context, request: PictureRequest) {
+        let at = |path: &Path| Errand {
+            message: format!("The picture is in {}", path.display()),
+            ..Errand::default()
+        };
         let Some(surroundings) = self.surroundings.clone() else {
             let why = "the environment is still loading; save the picture when it is there";
             self.fail(why.to_owned());
@@ -150,13 +155,15 @@ impl Explorer {
         let (gpu, scene) = (self.gpu.clone(), self.scene());
         let measured = self.labs.bench.measured().cloned();
         self.send(ctx, "drawing the picture", move |progress| {
+            if let (Some(written), Destination::File { path, .. }) =
+                (line_art::written(&scene, &request), &request.to)
+            {
+                return written.map(|()| at(path));
+            }
             let made = picture::make_with(&gpu, &scene, surroundings, measured, &request, progress);
             let picture = made?;
             Ok(match request.to {
-                Destination::File { path, .. } => Errand {
-                    message: format!("The picture is in {}", path.display()),
-                    ..Errand::default()
-                },
+                Destination::File { path, .. } => at(&path),
                 Destination::Clipboard => Errand {
                     message: "The picture was sent to the clipboard".to_owned(),
                     picture: Some(picture.to_color_image()),
@@ -407,17 +414,20 @@ impl Explorer {
         };
         match job.poll() {
             Outcome::Running => self.opening = Some(job),
-            Outcome::Done(Ok(Opened::Scene(state))) => {
-                let before = self.state.clone();
-                self.replace(ctx, state.clone().sanitized());
-                self.history.record(before, &Action::Load(state));
-                self.tree = panes::tree_of(&self.state);
-            }
+            Outcome::Done(Ok(Opened::Scene(state))) => self.show_scene(ctx, *state),
             Outcome::Done(Ok(Opened::Environment(environment))) => self.load(ctx, environment),
             Outcome::Done(Ok(Opened::Model(path))) => self.open_model(ctx, path),
             Outcome::Done(Err(why)) => self.fail(why),
             Outcome::Failed => self.fail("reading the file ended without a result".to_owned()),
         }
+    }
+
+    /// Shows another scene, which can be taken back.
+    pub(super) fn show_scene(&mut self, ctx: &Context, scene: AppState) {
+        let before = self.state.clone();
+        self.replace(ctx, scene.clone().sanitized());
+        self.history.record(before, &Action::Load(Box::new(scene)));
+        self.tree = panes::tree_of(&self.state);
     }
 
     fn poll_errands(&mut self, ctx: &Context) {

@@ -1,9 +1,10 @@
 //! The lines on a folded map, as they are seen.
 
 use super::view::Surface;
-use crate::app::map_lines::{Kind, MapLine, PARTS, goes_on, map_lines};
+use crate::app::map_lines::{Kind, MapLine, goes_on, map_lines};
 use crate::app::state::Overlays;
 use crate::mapping::ChartPoint;
+use crate::mapping::cube_face::GREAT_CIRCLES;
 
 /// A line that is seen from one side.
 #[derive(Clone, Debug)]
@@ -18,7 +19,20 @@ pub struct Line {
 
 /// The lines that are switched on.
 pub fn lines(surface: &Surface, overlays: Overlays) -> Vec<Line> {
-    seen(surface, &map_lines(surface.map(), overlays, PARTS))
+    seen(surface, &map_lines(surface.map(), overlays))
+}
+
+/// Where each great circle has its letter: the middle of the longest piece that is seen from outside, else of the longest.
+pub fn letters(lines: &[Line]) -> Vec<(usize, [f32; 2])> {
+    let of_circle = |index: usize| {
+        let own = lines
+            .iter()
+            .filter(|line| line.kind == Kind::GreatCircle(index));
+        let longest = own.max_by_key(|line| (line.is_outside, line.at.len()))?;
+        let middle = longest.at.get(longest.at.len() / 2)?;
+        Some((index, *middle))
+    };
+    (0..GREAT_CIRCLES.len()).filter_map(of_circle).collect()
 }
 
 /// Where lines of the map are seen.

@@ -3,21 +3,20 @@
 use egui::epaint::{Mesh, Vertex};
 use egui::{Align2, Color32, Pos2, RichText, Sense, Slider, Ui, pos2, vec2};
 
-use super::lines::lines;
-use super::view::{Quad, Surface};
+use super::lines::{letters, lines};
+use super::view::{CLOSED, Quad, Surface};
 use crate::app::action::{Action, probe_at};
 use crate::app::distortion::{HeatWanted, Seen, paint_legend};
 use crate::app::map_lines::Kind;
 use crate::app::marks::{cross_mark, edged_line, edged_text};
 use crate::app::model::Model;
-use crate::app::state::FoldState;
+use crate::app::state::{FoldState, Overlays};
 use crate::app::theme;
 use crate::app::viewport::{ORBIT_RAD_PER_POINT, aspect};
 use crate::gpu::GREAT_CIRCLE_COLORS;
-use crate::mapping::{ChartPoint, MappingId};
-
-/// From this share on the outside hides the inside: a little before the solid is closed.
-const CLOSED: f32 = 0.45;
+use crate::imaging::FACE_COLORS;
+use crate::mapping::cube_face::GREAT_CIRCLES;
+use crate::mapping::{Borders, ChartPoint, MappingId};
 
 /// Shows the pane in all the space there is.
 pub fn fold_ui(ui: &mut Ui, model: &mut Model<'_>) {
@@ -96,10 +95,15 @@ pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
                 Color32::WHITE
             };
             let own = quads.iter().filter(|quad| quad.is_outside == is_outside);
+            let tint = |quad: &Quad| match face_tint(state.overlays, state.mapping, quad) {
+                Some(face) => tint * face,
+                None => tint,
+            };
             painter.add(mesh(state.mapping, picture, own, tint, on_screen));
         }
     }
-    for line in lines(&surface, state.overlays) {
+    let lines = lines(&surface, state.overlays);
+    for line in &lines {
         let behind = !line.is_outside && !see_through && state.fold.share >= CLOSED;
         if behind {
             continue;
@@ -109,9 +113,22 @@ pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
         } else {
             1.0
         };
-        let points: Vec<Pos2> = line.at.into_iter().map(on_screen).collect();
+        let points: Vec<Pos2> = line.at.iter().copied().map(on_screen).collect();
         let (width, color) = pen(line.kind);
         edged_line(&painter, points, width, color.gamma_multiply(faint));
+    }
+    for (index, at) in letters(&lines) {
+        let (at, name) = (
+            on_screen(at) + vec2(4.0, -4.0),
+            GREAT_CIRCLES[index].0.to_string(),
+        );
+        edged_text(
+            &painter,
+            at,
+            Align2::LEFT_BOTTOM,
+            &name,
+            pen(Kind::GreatCircle(index)).1,
+        );
     }
     if state.overlays.names {
         paint_names(&painter, &surface, on_screen);
@@ -185,13 +202,14 @@ fn mesh<'a>(
     mapping: MappingId,
     picture: egui::TextureId,
     quads: impl Iterator<Item = &'a Quad>,
-    tint: Color32,
+    tint: impl Fn(&Quad) -> Color32,
     on_screen: impl Fn([f32; 2]) -> Pos2,
 ) -> egui::Shape {
     let layout = mapping.info().layout;
     let mut mesh = Mesh::with_texture(picture);
     for quad in quads {
         let first = mesh.vertices.len() as u32;
+        let color = tint(quad);
         for (corner, at) in quad.corners.into_iter().zip(quad.at) {
             // Half a texel from its border, beyond which another chart or nothing lies.
             let inside = |c: f64| c.clamp(INSIDE, 1.0 - INSIDE);
@@ -200,13 +218,20 @@ fn mesh<'a>(
             mesh.vertices.push(Vertex {
                 pos: on_screen(at),
                 uv: pos2(x as f32, y as f32),
-                color: tint,
+                color,
             });
         }
         mesh.add_triangle(first, first + 1, first + 2);
         mesh.add_triangle(first, first + 2, first + 3);
     }
     egui::Shape::mesh(mesh)
+}
+
+/// The colour of a piece's face, where faces are tinted and the map's charts are those of a cube.
+fn face_tint(overlays: Overlays, mapping: MappingId, quad: &Quad) -> Option<Color32> {
+    let is_tinted = overlays.face_tint && mapping.info().borders == Borders::CubeEdges;
+    let [r, g, b] = *FACE_COLORS.get(quad.corners[0].chart as usize)?;
+    is_tinted.then_some(Color32::from_rgb(r, g, b))
 }
 
 fn pen(kind: Kind) -> (f32, Color32) {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::mapping::{ChartPoint, Domain, MappingId, Unfolding};
+use crate::mapping::{ChartPoint, Coverage, Domain, MappingId, Unfolding};
 use crate::math::Vec3;
 use crate::scene::Camera;
 
@@ -30,6 +30,9 @@ pub struct Quad {
     /// It is seen from outside, where the picture is mirrored.
     pub is_outside: bool,
 }
+
+/// From this share on the outside hides the inside: a little before the solid is closed.
+pub const CLOSED: f32 = 0.45;
 
 /// Pieces of the surface: enough that it looks round.
 const PIECES: f64 = 4096.0;
@@ -68,6 +71,28 @@ impl Surface {
         let place = self.place(point);
         let (x, y) = self.camera.project(place, self.aspect)?;
         Some(([x, y], place.distance(self.eye)))
+    }
+
+    /// The outline of the sphere, closed, once it is one and the mapping holds all of it: places on the screen as those of [`Self::seen`].
+    pub fn outline(&self) -> Option<Vec<[f32; 2]>> {
+        /// Points around it.
+        const STEPS: u32 = 180;
+        let is_sphere = self.share == 1.0 && self.map.info().coverage == Coverage::Sphere;
+        if !is_sphere {
+            return None;
+        }
+        // The tangents from the eye at distance d touch the unit sphere on the circle at 1/d from its middle.
+        let towards = self.eye.normalize();
+        let middle = towards / self.eye.length();
+        let radius = (1.0 - middle.length_squared()).max(0.0).sqrt();
+        let (right, up) = towards.any_orthonormal_pair();
+        (0..=STEPS)
+            .map(|k| {
+                let (sin, cos) = (std::f32::consts::TAU * k as f32 / STEPS as f32).sin_cos();
+                let place = middle + radius * (cos * right + sin * up);
+                self.camera.project(place, self.aspect).map(|(x, y)| [x, y])
+            })
+            .collect()
     }
 
     /// Whether the surface is seen from outside there; on the flat picture, from behind.

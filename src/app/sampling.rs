@@ -1,0 +1,127 @@
+//! The pane with the cut through the horizon: how evenly two mappings part it into texels.
+
+use egui::cache::{ComputerMut, FrameCache};
+use egui::{Align2, Color32, FontId, Pos2, Sense, Slider, Ui, vec2};
+
+use super::action::Action;
+use super::lists::grouped_list_ui;
+use super::model::Model;
+use super::state::{AppState, SamplingState};
+use super::theme;
+use crate::lab::drawing::{Colour, Drawing, Shape};
+use crate::lab::sampling::{QUARTERS, Sampling, drawing};
+use crate::mapping::MappingId;
+
+/// The selected mapping and the other one on a sheet of `size` pixels.
+pub fn sheet(state: &AppState, size: [u32; 2]) -> Drawing {
+    sheet_of(state, size, Sampling::new)
+}
+
+fn sheet_of(state: &AppState, size: [u32; 2], cut: impl Fn(MappingId, u32) -> Sampling) -> Drawing {
+    let SamplingState { other, quarter, .. } = state.sampling;
+    let mut maps = vec![state.mapping, other];
+    maps.dedup();
+    let cuts: Vec<Sampling> = maps.into_iter().map(|map| cut(map, quarter)).collect();
+    let probe = state.overlays.probe.then(|| state.probe_f64());
+    drawing(&cuts, probe, size)
+}
+
+/// Keeps the cuts from frame to frame.
+#[derive(Default)]
+struct Cuts;
+
+impl ComputerMut<(MappingId, u32), Sampling> for Cuts {
+    fn compute(&mut self, (map, quarter): (MappingId, u32)) -> Sampling {
+        Sampling::new(map, quarter)
+    }
+}
+
+/// Shows the pane in all the space there is.
+pub fn sampling_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    theme::pane_frame(ui).show(ui, |ui| {
+        controls_ui(ui, model);
+        sheet_ui(ui, model);
+    });
+}
+
+fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    let mut sampling = model.state.sampling;
+    ui.horizontal_wrapped(|ui| {
+        ui.strong(model.state.mapping.info().name);
+        let all = MappingId::ALL.iter().copied();
+        let title = |map: &MappingId| map.info().name.to_owned();
+        let family = |map: &MappingId| Some(map.info().family);
+        grouped_list_ui(ui, "beside", &mut sampling.other, all, title, family);
+        let label = ui.label("texels on a quarter of the horizon");
+        let slider = Slider::new(&mut sampling.quarter, QUARTERS.0..=QUARTERS.1);
+        ui.add(slider).labelled_by(label.id);
+    });
+    if sampling != model.state.sampling {
+        model.push(Action::SetSampling(sampling));
+    }
+}
+
+/// The sheet alone, in all the space there is.
+pub fn sheet_ui(ui: &mut Ui, model: &mut Model<'_>) {
+    let rect = ui.available_rect_before_wrap();
+    if rect.width() < 1.0 || rect.height() < 1.0 {
+        return;
+    }
+    let response = ui.allocate_rect(rect, Sense::hover());
+    let name = "Cut through the horizon, seen from above";
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    let painter = ui.painter_at(rect);
+    let [r, g, b] = theme::PICTURE_BACKGROUND;
+    painter.rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
+    let size = [rect.width() as u32, rect.height() as u32];
+    let kept = |map: MappingId, quarter: u32| {
+        ui.memory_mut(|memory| {
+            let cuts = memory.caches.cache::<FrameCache<Sampling, Cuts>>();
+            cuts.get((map, quarter)).clone()
+        })
+    };
+    for shape in sheet_of(model.state, size, kept).shapes() {
+        paint(&painter, rect.min, shape);
+    }
+}
+
+/// A shape of a drawing on the window's dark ground.
+fn paint(painter: &egui::Painter, corner: Pos2, shape: &Shape) {
+    let at = |[x, y]: [f64; 2]| corner + vec2(x as f32, y as f32);
+    match shape {
+        Shape::Line {
+            points,
+            width,
+            colour,
+        } => {
+            let points = points.iter().copied().map(at).collect();
+            painter.line(points, (*width as f32, on_dark(*colour)));
+        }
+        Shape::Disc {
+            at: middle,
+            radius,
+            colour,
+        } => {
+            painter.circle_filled(at(*middle), *radius as f32, on_dark(*colour));
+        }
+        Shape::Words {
+            at: corner,
+            size,
+            text,
+            colour,
+        } => {
+            // A font's size is about 1.4 times the height of its capitals.
+            let font = FontId::proportional(1.4 * *size as f32);
+            painter.text(at(*corner), Align2::LEFT_TOP, text, font, on_dark(*colour));
+        }
+    }
+}
+
+/// Greys change places, so that ink is light; colours stay.
+fn on_dark([r, g, b]: Colour) -> Color32 {
+    if r == g && g == b {
+        Color32::from_gray(255 - r)
+    } else {
+        Color32::from_rgb(r, g, b)
+    }
+}
