@@ -118,7 +118,6 @@ fn draw_figures(options: &FigureOptions) -> Result<(), (u8, String)> {
     use sixfold::app::figures::Figure;
     use sixfold::app::line_art::SVG;
     use sixfold::app::picture::{self, Destination, PictureRequest};
-    use sixfold::app::state::AppState;
     use sixfold::imaging::{Environment, atomic};
 
     if options.name == "list" {
@@ -153,8 +152,7 @@ fn draw_figures(options: &FigureOptions) -> Result<(), (u8, String)> {
         }
     }
     for figure in &figures {
-        let mut state = AppState::default();
-        figure.show(&mut state);
+        let mut state = figure.bare();
         if let Some(id) = &options.environment {
             state.environment = Environment::from_id(id);
         }
@@ -162,7 +160,7 @@ fn draw_figures(options: &FigureOptions) -> Result<(), (u8, String)> {
             let request = PictureRequest {
                 what: figure.what(),
                 size: options.size,
-                overlays: figure.has_overlays(),
+                overlays: true,
                 to: Destination::File {
                     path: path(figure, end),
                     force: options.force,

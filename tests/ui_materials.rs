@@ -9,7 +9,7 @@ use std::path::Path;
 use egui_kittest::kittest::Queryable;
 use sixfold::app::action::Action;
 use sixfold::app::command::Command;
-use sixfold::app::figures::Figure;
+use sixfold::app::figures::{Figure, Optics};
 use sixfold::app::state::AppState;
 use sixfold::optics::Material;
 use sixfold::optics::material::{BallPicture, Surface, Surfaces, View};
@@ -80,16 +80,18 @@ fn a_preset_is_one_choice_and_undo_takes_it_back() {
 #[test]
 fn every_figure_is_two_clicks_away() {
     for figure in [
-        Figure::Reflection,
-        Figure::Discriminant,
-        Figure::Transparency,
-    ] {
+        Optics::Reflection,
+        Optics::Discriminant,
+        Optics::Transparency,
+    ]
+    .map(Figure::Optics)
+    {
         let mut ui = open(small());
         let mut expected = state(&ui).clone();
         figure.show(&mut expected);
         assert_ne!(expected, *state(&ui), "{figure:?}");
         click(&mut ui, "Figures");
-        for each in Figure::ALL {
+        for each in Figure::all() {
             ui.get_by_label(each.title());
         }
         click(&mut ui, figure.title());

@@ -8,7 +8,7 @@ pub use paper::Paper;
 
 use super::action::draw_formula;
 use super::picture::What;
-use super::state::AppState;
+use super::state::{AppState, Overlays};
 
 /// A scene with a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,10 +59,15 @@ impl Figure {
         }
     }
 
-    /// True when what is drawn over the picture belongs to the figure.
+    /// The figure as a picture has it: nothing is drawn over it but what belongs to it.
     #[must_use]
-    pub const fn has_overlays(self) -> bool {
-        matches!(self, Self::Paper(_))
+    pub fn bare(self) -> AppState {
+        let mut state = AppState {
+            overlays: Overlays::NONE,
+            ..AppState::default()
+        };
+        self.show(&mut state);
+        state
     }
 
     /// Turns a state into the figure.

@@ -52,7 +52,7 @@ fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
         let title = |map: &MappingId| map.info().name.to_owned();
         let family = |map: &MappingId| Some(map.info().family);
         grouped_list_ui(ui, "beside", &mut sampling.other, all, title, family);
-        let label = ui.label("texels on a quarter of the horizon");
+        let label = ui.label("texels a quarter turn");
         let slider = Slider::new(&mut sampling.quarter, QUARTERS.0..=QUARTERS.1);
         ui.add(slider).labelled_by(label.id);
     });

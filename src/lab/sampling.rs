@@ -124,14 +124,26 @@ fn spans(borders_rad: &[f64]) -> impl Iterator<Item = [f64; 2]> {
 /// How far from the middle the map's solid is, cut at the horizon, where the sphere is at 1 and lies in it: the cube around it, the octahedron's
 /// square with its corners ahead and at the sides, or the sphere itself.
 fn reach(map: MappingId, dir: Vec3<f64>) -> f64 {
-    /// The octahedron whose square touches the sphere from outside.
-    const OCTAHEDRON: f64 = std::f64::consts::SQRT_2;
     match map.info().borders {
         Borders::CubeEdges => 1.0 / dir.x.abs().max(dir.z.abs()),
         Borders::FoldedSides => OCTAHEDRON / (dir.x.abs() + dir.z.abs()),
         _ => 1.0,
     }
 }
+
+/// Where the corners of the octahedron lie whose square touches the sphere from outside.
+const OCTAHEDRON: f64 = std::f64::consts::SQRT_2;
+
+/// Half the side of a square around a cut with room for the probe's mark.
+fn half_side(map: MappingId) -> f64 {
+    match map.info().borders {
+        Borders::FoldedSides => OCTAHEDRON,
+        _ => PROBE_REACH,
+    }
+}
+
+/// How far the line to the probe goes: beyond the sphere.
+const PROBE_REACH: f64 = 1.12;
 
 const INK: Colour = [30, 30, 30];
 const RAY: Colour = [160, 160, 160];
@@ -144,6 +156,9 @@ pub fn drawing(cuts: &[Sampling], probe: Option<Vec3<f64>>, size: [u32; 2]) -> D
     let mut drawing = Drawing::new(size);
     let [width, height] = size.map(f64::from);
     let count = cuts.len().max(1) as f64;
+    // The spheres are equally large.
+    let half = cuts.iter().map(|cut| half_side(cut.map));
+    let half = half.fold(1.0, f64::max);
     let [across, down] = if width >= height {
         [width / count, 0.0]
     } else {
@@ -155,7 +170,7 @@ pub fn drawing(cuts: &[Sampling], probe: Option<Vec3<f64>>, size: [u32; 2]) -> D
             if across > 0.0 { across } else { width },
             if down > 0.0 { down } else { height },
         ];
-        draw_cut(&mut drawing, cut, probe, corner, cell);
+        draw_cut(&mut drawing, cut, probe, (corner, cell), half);
     }
     drawing
 }
@@ -164,15 +179,14 @@ fn draw_cut(
     drawing: &mut Drawing,
     cut: &Sampling,
     probe: Option<Vec3<f64>>,
-    corner: [f64; 2],
-    [width, height]: [f64; 2],
+    (corner, [width, height]): ([f64; 2], [f64; 2]),
+    half_side: f64,
 ) {
     /// Letters, of the sheet's smaller side, and the largest of them in pixels.
     const LETTER: f64 = 0.03;
     let letter = (LETTER * width.min(height)).clamp(7.0, 20.0);
     let head = 5.5 * letter;
-    // The solids' corners are at sqrt 2.
-    let radius = (0.5 * width.min(height - head) / std::f64::consts::SQRT_2 * 0.94).max(1.0);
+    let radius = (0.5 * width.min(height - head) / half_side * 0.94).max(1.0);
     let middle = [
         corner[0] + 0.5 * width,
         corner[1] + head + 0.5 * (height - head),
@@ -228,7 +242,7 @@ fn draw_cut(
     drawing.disc(middle, 3.0 * pen, INK);
     if let Some(dir) = probe.filter(|dir| dir.x != 0.0 || dir.z != 0.0) {
         let angle = dir.x.atan2(dir.z);
-        drawing.line(&[middle, at(angle, 1.4)], 3.0 * pen, PROBE);
+        drawing.line(&[middle, at(angle, PROBE_REACH)], 3.0 * pen, PROBE);
     }
 }
 

@@ -81,6 +81,41 @@ fn figures_are_listed_and_an_unknown_one_is_answered_with_those_there_are() {
 }
 
 #[test]
+fn line_art_is_written_as_lines_too_and_nothing_else_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let out_arg = folder.path().to_str().unwrap();
+    let drawn = run(
+        &["figure", "paper-8", "--size", "64x48", "--out", out_arg],
+        "",
+    );
+    assert_eq!(drawn.status, 0, "{}", drawn.err);
+    assert!(folder.path().join("paper-8.png").exists());
+    let svg = std::fs::read_to_string(folder.path().join("paper-8.svg")).unwrap();
+    assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
+    // The colours of the great circles A to F.
+    for ink in [
+        "#e69f00", "#56b4e9", "#009e73", "#f0e442", "#d55e00", "#cc79a7",
+    ] {
+        assert!(svg.contains(ink), "{ink}");
+    }
+    let out = folder.path().join("out.svg");
+    let render = |what: &str| run(&["render", out.to_str().unwrap(), "--what", what], "");
+    let refused = render("viewport");
+    assert_eq!((refused.status, refused.err.lines().count()), (1, 1));
+    assert!(refused.err.contains(".png"), "{}", refused.err);
+    assert!(!out.exists());
+    for what in ["panel:octahedral", "panels", "fold", "sampling"] {
+        let written = render(what);
+        assert_eq!(written.status, 0, "{what}: {}", written.err);
+        assert!(std::fs::read_to_string(&out).unwrap().contains("<polyline"));
+        // A name that is taken is refused.
+        assert_eq!(render(what).status, 1);
+        std::fs::remove_file(&out).unwrap();
+    }
+    assert_eq!(render("panel:none").status, 2);
+}
+
+#[test]
 fn an_unknown_material_is_answered_with_those_there_are() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out.png");

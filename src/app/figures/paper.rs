@@ -94,13 +94,21 @@ impl Paper {
 
     /// Turns a state into the figure; object, material, light and the viewport's eye stay as they are.
     pub fn show(self, state: &mut AppState) {
-        state.overlays = Overlays::NONE;
+        // The probe and its vectors are no part of a figure, and stay as they are.
+        state.overlays = Overlays {
+            great_circles: false,
+            face_tint: false,
+            grid: false,
+            heat: None,
+            ellipses: false,
+            ..state.overlays
+        };
         state.compare = None;
         match self {
-            Self::Pole => sphere(state, MappingId::Latlong, [0.0, 89.0]),
-            Self::Equator => sphere(state, MappingId::Latlong, [0.0, 0.0]),
+            Self::Pole => sphere(state, MappingId::Latlong, [180.0, 89.0]),
+            Self::Equator => sphere(state, MappingId::Latlong, [180.0, 0.0]),
             Self::Faces => sphere(state, MappingId::Ccm, [-30.0, 30.0]),
-            Self::GreatCircles => sphere(state, MappingId::Ccm, [-20.0, 25.0]),
+            Self::GreatCircles => sphere(state, MappingId::Ccm, [-36.0, 30.0]),
             Self::Sampling => {
                 set_mapping(state, MappingId::Latlong);
                 state.sampling = SamplingState {
@@ -115,12 +123,13 @@ impl Paper {
             Self::Cross => one_cross(state),
         }
         match self {
+            // Seen from outside letters would be mirrored: surroundings without them.
             Self::Pole | Self::Equator => {
-                state.environment = Environment::Graticule;
+                state.environment = Environment::DirectionColor;
                 state.overlays.grid = true;
             }
             Self::Faces => {
-                state.environment = Environment::IcosahedronCrosses;
+                state.overlays.grid = true;
                 state.overlays.face_tint = true;
             }
             Self::GreatCircles => {
@@ -170,7 +179,7 @@ fn crosses(state: &mut AppState, mapping: MappingId) {
 /// One cross away from the middle of a face on both cube maps, equally enlarged.
 fn one_cross(state: &mut AppState) {
     /// The picture is four faces wide, and a cross of 10 degrees a ninth of a face at most.
-    const ZOOM: f32 = 16.0;
+    const ZOOM: f32 = 22.0;
     const BOTH: [MappingId; 2] = [MappingId::Cube, MappingId::Ccm];
     state.environment = Environment::IcosahedronCrosses;
     set_mapping(state, MappingId::Ccm);

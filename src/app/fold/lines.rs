@@ -22,15 +22,16 @@ pub fn lines(surface: &Surface, overlays: Overlays) -> Vec<Line> {
     seen(surface, &map_lines(surface.map(), overlays))
 }
 
-/// Where each great circle has its letter: the middle of the longest piece that is seen from outside, else of the longest.
+/// Where each great circle has its letter: on the longest piece that is seen from outside, else of the longest.
 pub fn letters(lines: &[Line]) -> Vec<(usize, [f32; 2])> {
     let of_circle = |index: usize| {
         let own = lines
             .iter()
             .filter(|line| line.kind == Kind::GreatCircle(index));
         let longest = own.max_by_key(|line| (line.is_outside, line.at.len()))?;
-        let middle = longest.at.get(longest.at.len() / 2)?;
-        Some((index, *middle))
+        // Not the middle, where lines of other circles may lie.
+        let at = longest.at.get(longest.at.len() * 3 / 8)?;
+        Some((index, *at))
     };
     (0..GREAT_CIRCLES.len()).filter_map(of_circle).collect()
 }

@@ -10,7 +10,7 @@ use crate::app::distortion::{HeatWanted, Seen, paint_legend};
 use crate::app::map_lines::Kind;
 use crate::app::marks::{cross_mark, edged_line, edged_text};
 use crate::app::model::Model;
-use crate::app::state::{FoldState, Overlays};
+use crate::app::state::FoldState;
 use crate::app::theme;
 use crate::app::viewport::{ORBIT_RAD_PER_POINT, aspect};
 use crate::gpu::GREAT_CIRCLE_COLORS;
@@ -85,8 +85,7 @@ pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
     painter.rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
 
     let see_through = state.fold.see_through;
-    let picture = picture_of(model, state.mapping);
-    if let Some(picture) = picture {
+    if let Some(ground) = ground_of(model) {
         // The insides that are seen lie behind all outsides: on a closed surface, and on one that opens towards the eye.
         for is_outside in [false, true] {
             let tint = if is_outside && see_through {
@@ -95,11 +94,7 @@ pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
                 Color32::WHITE
             };
             let own = quads.iter().filter(|quad| quad.is_outside == is_outside);
-            let tint = |quad: &Quad| match face_tint(state.overlays, state.mapping, quad) {
-                Some(face) => tint * face,
-                None => tint,
-            };
-            painter.add(mesh(state.mapping, picture, own, tint, on_screen));
+            painter.add(mesh(state.mapping, ground, own, tint, on_screen));
         }
     }
     let lines = lines(&surface, state.overlays);
@@ -175,6 +170,25 @@ fn turn(ui: &Ui, model: &mut Model<'_>, response: &egui::Response) {
     }
 }
 
+/// What the surface shows.
+#[derive(Clone, Copy)]
+enum Ground {
+    /// The map's picture: its light, or a heat map.
+    Picture(egui::TextureId),
+    /// The colours of the faces.
+    Faces,
+}
+
+/// The faces where they are tinted and the map's charts are those of a cube, else the picture, once it is made.
+fn ground_of(model: &mut Model<'_>) -> Option<Ground> {
+    let mapping = model.state.mapping;
+    let has_faces = mapping.info().borders == Borders::CubeEdges;
+    if model.state.overlays.face_tint && has_faces {
+        return Some(Ground::Faces);
+    }
+    picture_of(model, mapping).map(Ground::Picture)
+}
+
 /// The heat map that is switched on, or the light.
 fn picture_of(model: &mut Model<'_>, mapping: MappingId) -> Option<egui::TextureId> {
     let Some(quantity) = model.state.overlays.heat else {
@@ -200,38 +214,40 @@ const INSIDE: f64 = 0.5 / 192.0;
 
 fn mesh<'a>(
     mapping: MappingId,
-    picture: egui::TextureId,
+    ground: Ground,
     quads: impl Iterator<Item = &'a Quad>,
-    tint: impl Fn(&Quad) -> Color32,
+    tint: Color32,
     on_screen: impl Fn([f32; 2]) -> Pos2,
 ) -> egui::Shape {
     let layout = mapping.info().layout;
-    let mut mesh = Mesh::with_texture(picture);
+    let mut mesh = match ground {
+        Ground::Picture(picture) => Mesh::with_texture(picture),
+        Ground::Faces => Mesh::default(),
+    };
     for quad in quads {
         let first = mesh.vertices.len() as u32;
-        let color = tint(quad);
         for (corner, at) in quad.corners.into_iter().zip(quad.at) {
-            // Half a texel from its border, beyond which another chart or nothing lies.
-            let inside = |c: f64| c.clamp(INSIDE, 1.0 - INSIDE);
-            let corner = ChartPoint::new(corner.chart, inside(corner.u), inside(corner.v));
-            let [x, y] = layout.picture_from_chart(corner).unwrap_or_default();
-            mesh.vertices.push(Vertex {
-                pos: on_screen(at),
-                uv: pos2(x as f32, y as f32),
-                color,
-            });
+            let (uv, color) = match ground {
+                Ground::Picture(_) => {
+                    // Half a texel from its border, beyond which another chart or nothing lies.
+                    let inside = |c: f64| c.clamp(INSIDE, 1.0 - INSIDE);
+                    let corner = ChartPoint::new(corner.chart, inside(corner.u), inside(corner.v));
+                    let [x, y] = layout.picture_from_chart(corner).unwrap_or_default();
+                    (pos2(x as f32, y as f32), tint)
+                }
+                Ground::Faces => {
+                    let face = FACE_COLORS.get(corner.chart as usize).copied();
+                    let [r, g, b] = face.unwrap_or_default();
+                    (egui::epaint::WHITE_UV, tint * Color32::from_rgb(r, g, b))
+                }
+            };
+            let pos = on_screen(at);
+            mesh.vertices.push(Vertex { pos, uv, color });
         }
         mesh.add_triangle(first, first + 1, first + 2);
         mesh.add_triangle(first, first + 2, first + 3);
     }
     egui::Shape::mesh(mesh)
-}
-
-/// The colour of a piece's face, where faces are tinted and the map's charts are those of a cube.
-fn face_tint(overlays: Overlays, mapping: MappingId, quad: &Quad) -> Option<Color32> {
-    let is_tinted = overlays.face_tint && mapping.info().borders == Borders::CubeEdges;
-    let [r, g, b] = *FACE_COLORS.get(quad.corners[0].chart as usize)?;
-    is_tinted.then_some(Color32::from_rgb(r, g, b))
 }
 
 fn pen(kind: Kind) -> (f32, Color32) {

@@ -97,7 +97,7 @@ impl Surface {
 
     /// Whether the surface is seen from outside there; on the flat picture, from behind.
     pub fn is_outside(&self, point: ChartPoint<f64>) -> bool {
-        /// A step that leaves the chart nowhere by more than the gutter goes on.
+        /// Steps towards the middle of the chart: at its border, where a pole may lie, a piece may have no sides.
         const STEP: f64 = 1e-3;
         let inward = |c: f64| if c > 0.5 { -STEP } else { STEP };
         let [du, dv] = [inward(point.u), inward(point.v)];
@@ -106,9 +106,9 @@ impl Surface {
                 .map(|seen| seen.0)
         };
         let (Some(o), Some(a), Some(b)) = (
-            at(point.u, point.v),
-            at(point.u + du, point.v),
-            at(point.u, point.v + dv),
+            at(point.u + du, point.v + dv),
+            at(point.u + 2.0 * du, point.v + dv),
+            at(point.u + du, point.v + 2.0 * dv),
         ) else {
             return false;
         };

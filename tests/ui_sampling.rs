@@ -1,0 +1,99 @@
+//! The cut through the horizon and the paper's figures, in the window.
+
+#![cfg(feature = "explorer")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "helpers of tests say what they expect by unwrapping"
+)]
+
+mod window_kit;
+
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable;
+use sixfold::app::arrangement::Pane;
+use sixfold::app::command::Command;
+use sixfold::app::figures::Figure;
+use sixfold::app::picture::What;
+use sixfold::app::state::{AppState, SamplingState};
+use sixfold::imaging::Environment;
+use sixfold::mapping::MappingId;
+use window_kit::{Ui, middle_end, open, open_sized, rests, run, settle, small};
+
+const SHEET: &str = "Cut through the horizon, seen from above";
+
+fn state(ui: &Ui) -> &AppState {
+    ui.state().explorer().state()
+}
+
+fn sampled(mapping: MappingId) -> AppState {
+    AppState {
+        mapping,
+        maximised: Some(Pane::Sampling),
+        sampling: SamplingState {
+            open: true,
+            ..SamplingState::default()
+        },
+        ..small()
+    }
+}
+
+#[test]
+fn the_menu_opens_the_pane_and_a_list_chooses_what_it_compares() {
+    let mut ui = open(small());
+    assert!(ui.query_by_label(SHEET).is_none(), "control: it is shut");
+    ui.get_by_label("View").click();
+    settle(&mut ui);
+    ui.get_by_label("Sampling of the horizon").click();
+    settle(&mut ui);
+    assert!(state(&ui).sampling.open);
+    let mut ui = open(sampled(MappingId::Latlong));
+    ui.get_by_label(SHEET);
+    ui.get_by_role_and_label(Role::ComboBox, "beside").click();
+    settle(&mut ui);
+    ui.get_by_role_and_label(Role::Button, "Continuous cube map").click();
+    settle(&mut ui);
+    assert_eq!(state(&ui).sampling.other, MappingId::Ccm);
+    assert!(rests(&mut ui));
+}
+
+#[test]
+fn it_fits_into_large_and_small_windows() {
+    for (width, height) in [(1280.0, 800.0), (800.0, 600.0)] {
+        let ui = open_sized(sampled(MappingId::Healpix), width, height);
+        let sheet = ui.get_by_label(SHEET).rect();
+        assert!(sheet.width() > 200.0 && sheet.height() > 200.0, "{sheet:?}");
+        assert!(sheet.right() <= middle_end(&ui, width) + 1.0, "{sheet:?}");
+        assert!(sheet.bottom() <= height, "{sheet:?}");
+    }
+}
+
+#[test]
+fn every_figure_is_shown_with_its_surroundings_and_can_be_taken_back() {
+    let mut ui = open(small());
+    let before = state(&ui).clone();
+    for figure in Figure::all() {
+        run(&mut ui, Command::ShowFigure(figure));
+        settle(&mut ui);
+        let shown = state(&ui);
+        let name = figure.id();
+        match figure.what() {
+            What::Fold => assert_eq!(shown.maximised, Some(Pane::Fold), "{name}"),
+            What::Sampling => assert_eq!(shown.maximised, Some(Pane::Sampling), "{name}"),
+            What::Panel(mapping) => {
+                assert_eq!(shown.maximised, Some(Pane::Map(mapping)), "{name}");
+                assert_eq!(shown.mapping, mapping, "{name}");
+                assert_eq!(shown.environment, Environment::IcosahedronCrosses, "{name}");
+            }
+            What::Panels => {
+                let open: Vec<MappingId> = shown.open_panels().collect();
+                assert_eq!(open, [MappingId::Cube, MappingId::Ccm], "{name}");
+            }
+            _ => assert_eq!(shown.maximised, None, "{name}"),
+        }
+        run(&mut ui, Command::Undo);
+        settle(&mut ui);
+        assert_eq!(state(&ui).environment, before.environment, "{name}");
+        assert_eq!(state(&ui).maximised, before.maximised, "{name}");
+        assert_eq!(state(&ui).mapping, before.mapping, "{name}");
+    }
+}
