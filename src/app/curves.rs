@@ -1,10 +1,12 @@
 //! Reflectance over the angle of incidence: the approximations beside the exact curve.
 
+mod table;
+
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use egui::cache::{ComputerMut, FrameCache};
-use egui::{Align2, Color32, Grid, RichText, Sense, Stroke, Ui, vec2};
+use egui::{Align2, Color32, RichText, Stroke, Ui};
 use egui_plot::{
     AxisHints, GridMark, HoverPosition, Line, LineStyle, PlotPoint, PlotPoints, Text, VLine,
 };
@@ -34,8 +36,6 @@ const POINTER: &str = "θ";
 /// Room for a marked angle's name, and for the numbers at the plot's left, in points.
 const NAME_WIDTH: f64 = 78.0;
 const AXIS_WIDTH: f64 = 40.0;
-/// Below this width the table's numbers are told with a place less.
-const NARROW_TABLE: f32 = 310.0;
 /// Height of a row of the table.
 const ROW_HEIGHT: f32 = 21.0;
 /// Below this height curves cannot be told apart.
@@ -77,7 +77,7 @@ pub fn curves_ui(ui: &mut Ui, model: &mut Model<'_>) {
                     size.x - TABLE_WIDTH - 10.0,
                     size.y,
                 );
-                ui.vertical(|ui| table_ui(ui, model, &rows, incidence));
+                ui.vertical(|ui| table::table_ui(ui, model, &rows, incidence));
             });
         } else {
             // One below the other. Where both have no room, one scrolls: a flat plot could not be read.
@@ -86,7 +86,7 @@ pub fn curves_ui(ui: &mut Ui, model: &mut Model<'_>) {
             let scroll = egui::ScrollArea::vertical().auto_shrink([false, false]);
             scroll.show(ui, |ui| {
                 plot_ui(ui, &rows, eta, incidence, size.x, height);
-                table_ui(ui, model, &rows, incidence);
+                table::table_ui(ui, model, &rows, incidence);
             });
         }
     });
@@ -347,130 +347,6 @@ fn marks(to: f64, step: f64) -> Vec<GridMark> {
             step_size: if i % 2 == 0 { 2.0 * step } else { step },
         })
         .collect()
-}
-
-/// Each formula with its value at the angle of incidence and its largest error.
-fn table_ui(ui: &mut Ui, model: &mut Model<'_>, rows: &[Row], incidence_rad: Option<f64>) {
-    let is_narrow = ui.available_width() < NARROW_TABLE;
-    egui::ScrollArea::horizontal().show(ui, |ui| {
-        Grid::new("formulas")
-            .num_columns(4)
-            .min_col_width(0.0)
-            .spacing([if is_narrow { 4.0 } else { 8.0 }, 1.0])
-            .show(ui, |ui| {
-                let at = incidence_rad.map_or("at θ".to_owned(), |angle| {
-                    let degrees = angle.to_degrees();
-                    if is_narrow {
-                        format!("{degrees:.0}°")
-                    } else {
-                        format!("at {degrees:.1}°")
-                    }
-                });
-                let largest = if is_narrow {
-                    "largest"
-                } else {
-                    "largest error"
-                };
-                for title in ["formula", &at, largest, "at"] {
-                    ui.label(RichText::new(title).small()).on_hover_text(
-                        "Largest error: the formula less the exact value, where it is farthest off",
-                    );
-                }
-                ui.end_row();
-                for row in rows {
-                    row_ui(ui, model, row, incidence_rad, is_narrow);
-                    ui.end_row();
-                }
-            });
-    });
-}
-
-fn row_ui(
-    ui: &mut Ui,
-    model: &mut Model<'_>,
-    row: &Row,
-    incidence_rad: Option<f64>,
-    is_narrow: bool,
-) {
-    // Places of a reflectance, and of an angle in degrees.
-    let (places, angle_places) = if is_narrow { (3, 0) } else { (4, 1) };
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = if is_narrow { 2.0 } else { 4.0 };
-        ui.spacing_mut().button_padding.x = 2.0;
-        if let Some(formula) = row.formula {
-            show_ui(ui, model, row, formula);
-        }
-        swatch_ui(ui, row);
-        match row.formula {
-            Some(formula) => choose_ui(ui, model, name_text(row, is_narrow), formula),
-            None => {
-                ui.label(name_text(row, is_narrow));
-            }
-        }
-    });
-    if !row.shown {
-        return;
-    }
-    let mono = |text: String| RichText::new(text).monospace().size(11.0);
-    let value = incidence_rad.map(|angle| format!("{:.places$}", row.law.reflectance(angle)));
-    ui.label(mono(value.unwrap_or_else(|| "–".to_owned())));
-    if row.law.exact() == row.law {
-        ui.label(mono("exact".to_owned()));
-        return;
-    }
-    let LargestError { error, angle_rad } = computed(ui.ctx(), row.law).largest;
-    ui.label(mono(format!("{error:+.places$}")));
-    let degrees = angle_rad.to_degrees();
-    ui.label(mono(format!("{degrees:.angle_places$}°")));
-}
-
-/// Draws the curve or not; the exact one always is.
-fn show_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, formula: Formula) {
-    let mut shown = row.shown;
-    let checkbox = egui::Checkbox::without_text(&mut shown);
-    let response = ui.add_enabled(formula != Formula::Fresnel, checkbox);
-    let label = format!("Draw {}", row.name);
-    response
-        .widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, row.shown, &label));
-    if response.on_hover_text(&label).changed() {
-        let mut curves = model.state.curves.clone();
-        curves.shown.retain(|f| *f != formula);
-        if shown {
-            curves.shown.push(formula);
-        }
-        model.push(Action::SetCurves(curves));
-    }
-}
-
-fn name_text(row: &Row, is_narrow: bool) -> RichText {
-    RichText::new(&row.name).size(if is_narrow { 10.0 } else { 11.0 })
-}
-
-/// Makes the formula the material's.
-fn choose_ui(ui: &mut Ui, model: &mut Model<'_>, name: RichText, formula: Formula) {
-    let material = &model.state.material;
-    let response = ui
-        .selectable_label(material.formula == formula, name)
-        .on_hover_text("Click: the material reflects by this formula");
-    if response.clicked() && material.formula != formula {
-        model.push(Action::SetMaterial(Box::new(Material {
-            formula,
-            ..material.clone()
-        })));
-    }
-}
-
-/// A piece of the curve's line.
-fn swatch_ui(ui: &mut Ui, row: &Row) {
-    let (rect, _) = ui.allocate_exact_size(vec2(12.0, 10.0), Sense::hover());
-    let line = [rect.left_center(), rect.right_center()];
-    let stroke = Stroke::new(row.width.min(3.0), row.color);
-    let shapes = match row.style {
-        LineStyle::Solid => vec![egui::Shape::line_segment(line, stroke)],
-        LineStyle::Dashed { .. } => egui::Shape::dashed_line(&line, stroke, 5.0, 3.0),
-        LineStyle::Dotted { .. } => egui::Shape::dotted_line(&line, row.color, 4.0, 1.2),
-    };
-    ui.painter().extend(shapes);
 }
 
 /// What is computed once for each curve that is shown, and kept while it is.

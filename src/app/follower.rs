@@ -5,12 +5,21 @@ use super::model::JobLine;
 use super::object::{Jobs, job_line};
 use crate::imaging::Progress;
 
+/// Why something is not made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GivenUp {
+    /// The user has stopped it.
+    Cancelled,
+    /// It could not be made.
+    Failed,
+}
+
 /// The last thing that was made, what it was made for, and the job that makes the next one.
 pub struct Follower<W, T> {
     shown: Option<(W, T)>,
     running: Option<(W, Job<Option<T>>)>,
-    /// Could not be made, or was cancelled: not tried again by itself.
-    given_up: Option<W>,
+    /// Not tried again by itself, and why.
+    given_up: Option<(W, GivenUp)>,
 }
 
 impl<W, T> Default for Follower<W, T> {
@@ -41,7 +50,7 @@ impl<W: Clone + PartialEq + Send + 'static, T: Send + 'static> Follower<W, T> {
         let Some(wanted) = wanted.filter(|wanted| self.is_missing(wanted)) else {
             return Ok(());
         };
-        self.given_up = Some(wanted.clone());
+        self.given_up = Some((wanted.clone(), GivenUp::Failed));
         let of = wanted.clone();
         let job = jobs.start(title.into(), move |progress| make(&of, progress))?;
         self.given_up = None;
@@ -59,13 +68,14 @@ impl<W: Clone + PartialEq + Send + 'static, T: Send + 'static> Follower<W, T> {
 
     fn is_missing(&self, wanted: &W) -> bool {
         let is_there = self.shown.as_ref().is_some_and(|(of, _)| of == wanted);
-        !is_there && self.running.is_none() && self.given_up.as_ref() != Some(wanted)
+        let is_given_up = self.given_up.as_ref().is_some_and(|(of, _)| of == wanted);
+        !is_there && self.running.is_none() && !is_given_up
     }
 
     fn take_in(&mut self, wanted: W, made: Option<T>) {
         match made {
             Some(made) => self.shown = Some((wanted, made)),
-            None => self.given_up = Some(wanted),
+            None => self.given_up = Some((wanted, GivenUp::Failed)),
         }
     }
 
@@ -77,7 +87,7 @@ impl<W: Clone + PartialEq + Send + 'static, T: Send + 'static> Follower<W, T> {
         match job.poll() {
             Outcome::Running => self.running = Some((wanted, job)),
             Outcome::Done(made) => self.take_in(wanted, made),
-            Outcome::Failed => self.given_up = Some(wanted),
+            Outcome::Failed => self.given_up = Some((wanted, GivenUp::Failed)),
         }
     }
 
@@ -91,10 +101,15 @@ impl<W: Clone + PartialEq + Send + 'static, T: Send + 'static> Follower<W, T> {
         self.running.as_ref().map(|(wanted, _)| wanted)
     }
 
+    /// Why the last wish that nothing came of was given up, until something else is begun.
+    pub fn given_up(&self) -> Option<GivenUp> {
+        self.given_up.as_ref().map(|(_, why)| *why)
+    }
+
     /// Lets go of what was made for a wish of that kind, which would be kept in memory for nobody.
     pub fn forget(&mut self, is_stale: impl Fn(&W) -> bool) {
         self.shown.take_if(|(wanted, _)| is_stale(wanted));
-        self.given_up.take_if(|wanted| is_stale(wanted));
+        self.given_up.take_if(|(wanted, _)| is_stale(wanted));
     }
 
     /// The job under way.
@@ -105,7 +120,7 @@ impl<W: Clone + PartialEq + Send + 'static, T: Send + 'static> Follower<W, T> {
     /// Stops the job of that number.
     pub fn cancel(&mut self, id: u64) {
         if let Some((wanted, _)) = self.running.take_if(|(_, job)| job.id == id) {
-            self.given_up = Some(wanted);
+            self.given_up = Some((wanted, GivenUp::Cancelled));
         }
     }
 }
@@ -136,6 +151,8 @@ mod tests {
                 .follow(wanted, "double", &mut jobs, double)
                 .unwrap();
             settle(&mut follower);
+            let failed = wanted == Some(7);
+            assert_eq!(follower.given_up(), failed.then_some(GivenUp::Failed));
             // A failure, and a wish of nobody, leave the last one.
             assert_eq!(follower.shown(), Some((&2, &4)));
         }
@@ -164,9 +181,10 @@ mod tests {
         follower.cancel(id + 1);
         assert!(follower.job().is_some(), "another's number");
         follower.cancel(id);
+        assert_eq!(follower.given_up(), Some(GivenUp::Cancelled));
         follower.follow(Some(1), "wait", &mut jobs, wait).unwrap();
         assert!(follower.job().is_none());
         follower.follow(Some(2), "wait", &mut jobs, wait).unwrap();
-        assert!(follower.job().is_some());
+        assert!(follower.job().is_some() && follower.given_up().is_none());
     }
 }

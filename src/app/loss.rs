@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 
-use super::job::{Job, Outcome};
+use super::follower::{Follower, GivenUp};
 use super::labs::Lab;
 use super::model::JobLine;
-use super::object::{Jobs, job_line};
+use super::object::Jobs;
 use super::state::{AppState, LossState, MOST_MAGNIFIED};
 use super::theme::PICTURE_BACKGROUND;
 use crate::gpu::Shared;
@@ -63,7 +63,7 @@ impl Measured {
     /// Measures; of an earlier measurement (`old`) what is the same is kept.
     fn of(
         wanted: &Wanted,
-        old: Option<&(Wanted, Arc<Self>)>,
+        old: Option<(&Wanted, &Arc<Self>)>,
         progress: &Progress,
     ) -> Result<Arc<Self>, String> {
         let said = |error: &dyn std::fmt::Display| error.to_string();
@@ -147,31 +147,6 @@ impl Measured {
     }
 }
 
-/// A measurement with its picture.
-struct Made {
-    measured: Arc<Measured>,
-    picture: ColorImage,
-    factor: u32,
-}
-
-impl Made {
-    fn of(
-        wanted: &Wanted,
-        old: Option<&(Wanted, Arc<Measured>)>,
-        progress: &Progress,
-    ) -> Result<Self, String> {
-        let measured = Measured::of(wanted, old, progress)?;
-        let usual = || measured.usual_magnification();
-        let factor = wanted.settings.magnification.unwrap_or_else(usual);
-        let picture = measured.picture(factor).ok_or("there is no residual")?;
-        Ok(Self {
-            measured,
-            picture,
-            factor,
-        })
-    }
-}
-
 /// What is on the screen.
 pub struct Shown {
     /// What was asked for.
@@ -184,13 +159,46 @@ pub struct Shown {
     pub factor: u32,
 }
 
+impl Shown {
+    /// Measures, and makes the picture; of what was shown (`old`) what is the same is kept.
+    fn of(
+        wanted: &Wanted,
+        old: Option<&Self>,
+        ctx: &Context,
+        progress: &Progress,
+    ) -> Result<Arc<Self>, String> {
+        let old = old.map(|shown| (&shown.wanted, &shown.measured));
+        let measured = Measured::of(wanted, old, progress)?;
+        let usual = || measured.usual_magnification();
+        let factor = wanted.settings.magnification.unwrap_or_else(usual);
+        let picture = measured.picture(factor).ok_or("there is no residual")?;
+        let most = ctx.input(|i| i.max_texture_side);
+        if picture.size.iter().any(|side| *side > most) {
+            return Err(format!(
+                "a picture here has at most {most} texels a side; choose fewer rows"
+            ));
+        }
+        // Texels are seen as they are; where many fall on a pixel, each counts.
+        let options = TextureOptions {
+            minification: egui::TextureFilter::Linear,
+            ..TextureOptions::NEAREST
+        };
+        Ok(Arc::new(Self {
+            wanted: wanted.clone(),
+            measured,
+            picture: ctx.load_texture("residual", picture, options),
+            factor,
+        }))
+    }
+}
+
 /// The last measurement, and the job that makes the next one.
 #[derive(Default)]
 pub struct LossLab {
-    shown: Option<Shown>,
-    job: Option<(Wanted, Job<Result<Made, String>>)>,
-    /// Not tried again by itself, and why.
-    given_up: Option<(Wanted, String)>,
+    /// What came of the last wish, or why nothing did.
+    latest: Follower<Wanted, Result<Arc<Shown>, String>>,
+    /// The last that came out: it stays while the next is made, and when that fails.
+    shown: Option<Arc<Shown>>,
 }
 
 impl LossLab {
@@ -199,126 +207,72 @@ impl LossLab {
     /// # Errors
     /// When the system gives no thread.
     pub fn follow(&mut self, wanted: Option<Wanted>, jobs: &mut Jobs<'_>) -> Result<(), String> {
-        self.job
-            .take_if(|(running, _)| Some(&*running) != wanted.as_ref());
-        let Some(wanted) = wanted.filter(|wanted| self.is_missing(wanted)) else {
-            return Ok(());
+        let (old, ctx) = (self.shown.clone(), jobs.ctx.clone());
+        let make = move |wanted: &Wanted, progress: &Progress| {
+            Some(Shown::of(wanted, old.as_deref(), &ctx, progress))
         };
-        self.given_up = None;
-        let (made, old) = (wanted.clone(), self.old());
-        let job = jobs.start("measuring the loss".to_owned(), move |progress| {
-            Made::of(&made, old.as_ref(), progress)
-        });
-        match job {
-            Ok(job) => self.job = Some((wanted, job)),
-            Err(why) => {
-                self.given_up = Some((wanted, why.clone()));
-                return Err(why);
-            }
-        }
-        Ok(())
+        self.latest.follow(wanted, "measuring the loss", jobs, make)
     }
 
     /// Forgets what was measured of other surroundings, which would be kept in memory for nobody.
     pub fn forget_others(&mut self, loaded: &Arc<Loaded>) {
         let loaded = Shared::from(Arc::clone(loaded));
+        self.latest.forget(|wanted| wanted.loaded != loaded);
         self.shown.take_if(|shown| shown.wanted.loaded != loaded);
-        self.given_up.take_if(|(of, _)| of.loaded != loaded);
     }
 
     /// Waits for what is wanted: for pictures.
     pub fn complete(&mut self, wanted: Option<Wanted>, ctx: &Context) {
-        if let Some(wanted) = wanted.filter(|wanted| self.is_missing(wanted)) {
-            let made = Made::of(&wanted, self.old().as_ref(), &Progress::new());
-            self.take_in(wanted, made, ctx);
-        }
+        let old = self.shown.clone();
+        self.latest.complete(wanted, |wanted, progress| {
+            Some(Shown::of(wanted, old.as_deref(), ctx, progress))
+        });
+        self.take_in();
     }
 
-    fn is_missing(&self, wanted: &Wanted) -> bool {
-        let is_there = self.shown.as_ref().is_some_and(|s| s.wanted == *wanted);
-        let is_coming = self.job.as_ref().is_some_and(|(of, _)| of == wanted);
-        let is_given_up = self.given_up.as_ref().is_some_and(|(of, _)| of == wanted);
-        !is_there && !is_coming && !is_given_up
-    }
-
-    fn old(&self) -> Option<(Wanted, Arc<Measured>)> {
-        let shown = self.shown.as_ref()?;
-        Some((shown.wanted.clone(), Arc::clone(&shown.measured)))
-    }
-
-    fn take_in(&mut self, wanted: Wanted, made: Result<Made, String>, ctx: &Context) {
-        let most = ctx.input(|i| i.max_texture_side);
-        match made {
-            Ok(Made { picture, .. }) if picture.size.iter().any(|side| *side > most) => {
-                let why =
-                    format!("a picture here has at most {most} texels a side; choose fewer rows");
-                self.given_up = Some((wanted, why));
-            }
-            Ok(Made {
-                measured,
-                picture,
-                factor,
-            }) => {
-                // Texels are seen as they are; where many fall on a pixel, each counts.
-                let options = TextureOptions {
-                    minification: egui::TextureFilter::Linear,
-                    ..TextureOptions::NEAREST
-                };
-                let picture = ctx.load_texture("residual", picture, options);
-                self.shown = Some(Shown {
-                    wanted,
-                    measured,
-                    picture,
-                    factor,
-                });
-            }
-            Err(why) => self.given_up = Some((wanted, why)),
+    fn take_in(&mut self) {
+        if let Some((_, Ok(shown))) = self.latest.shown() {
+            self.shown = Some(Arc::clone(shown));
         }
     }
 
     /// The last measurement.
     pub fn shown(&self) -> Option<&Shown> {
-        self.shown.as_ref()
+        self.shown.as_deref()
     }
 
     /// Why nothing was measured.
     pub fn fault(&self) -> Option<&str> {
-        self.given_up.as_ref().map(|(_, why)| why.as_str())
-    }
-
-    /// True while a job runs.
-    pub fn is_busy(&self) -> bool {
-        self.job.is_some()
+        if self.latest.making().is_some() {
+            return None;
+        }
+        match self.latest.given_up() {
+            Some(GivenUp::Cancelled) => Some("measuring was cancelled"),
+            Some(GivenUp::Failed) => {
+                Some("measuring ended without a result: there may be too little memory")
+            }
+            None => self.latest.shown()?.1.as_ref().err().map(String::as_str),
+        }
     }
 
     /// What was given up is measured after all.
     pub fn try_again(&mut self) {
-        self.given_up = None;
+        self.latest.forget(|_| true);
     }
 }
 
 impl Lab for LossLab {
-    fn poll(&mut self, ctx: &Context) {
-        if let Some((wanted, job)) = self.job.take() {
-            match job.poll() {
-                Outcome::Running => self.job = Some((wanted, job)),
-                Outcome::Done(made) => self.take_in(wanted, made, ctx),
-                Outcome::Failed => {
-                    let why = "measuring ended without a result: there may be too little memory";
-                    self.given_up = Some((wanted, why.to_owned()));
-                }
-            }
-        }
+    fn poll(&mut self, _: &Context) {
+        self.latest.poll();
+        self.take_in();
     }
 
     fn jobs(&self) -> Vec<JobLine> {
-        self.job.iter().map(|(_, job)| job_line(job)).collect()
+        self.latest.job().into_iter().collect()
     }
 
     fn cancel(&mut self, id: u64) {
-        if let Some((wanted, _)) = self.job.take_if(|(_, job)| job.id == id) {
-            self.given_up = Some((wanted, "measuring was cancelled".to_owned()));
-        }
+        self.latest.cancel(id);
     }
 }
 
@@ -390,11 +344,11 @@ mod tests {
             settings,
         };
         let of = wanted(settings);
-        let old = Some((of.clone(), Arc::clone(&first)));
+        let old = Some((&of, &first));
         let next = |change: &dyn Fn(&mut Wanted)| {
             let mut wanted = of.clone();
             change(&mut wanted);
-            Measured::of(&wanted, old.as_ref(), &Progress::new()).unwrap()
+            Measured::of(&wanted, old, &Progress::new()).unwrap()
         };
         let magnified = next(&|w| w.settings.magnification = Some(8));
         assert!(Arc::ptr_eq(&magnified, &first));

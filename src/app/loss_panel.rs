@@ -4,6 +4,7 @@ use egui::{Color32, DragValue, Rect, RichText, Sense, Ui, vec2};
 
 use super::action::Action;
 use super::command::Command;
+use super::labs::Lab;
 use super::lists::{grouped_list_ui, list_ui};
 use super::loss::{Measured, Shown};
 use super::map_panel::{paint_chart_names, paint_probe, place_of, pointer, window_of};

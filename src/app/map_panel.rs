@@ -12,6 +12,7 @@ use super::state::PanelState;
 use super::story::StoryStep;
 use super::theme;
 use super::views::ViewKey;
+use super::wheel::{ZOOM_PER_POINT, wheel_zoom};
 use crate::mapping::{Layout, MappingId};
 use crate::math::Vec3;
 
@@ -65,9 +66,8 @@ pub(super) fn pointer(
     let Some(pos) = response.hover_pos().or(response.interact_pointer_pos()) else {
         return;
     };
-    let scroll = ui.input(|i| i.smooth_scroll_delta.y);
-    if response.contains_pointer() && scroll != 0.0 {
-        let zoomed = window.zoomed(view, (scroll * 0.005).exp(), pos);
+    if let Some(factor) = wheel_zoom(ui, response, ZOOM_PER_POINT) {
+        let zoomed = window.zoomed(view, factor, pos);
         model.push(Action::SetPanelView(zoomed));
     }
     if response.double_clicked() {

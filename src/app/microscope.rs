@@ -10,6 +10,7 @@ use super::model::Model;
 use super::stability::Shown;
 use super::state::StabilityState;
 use super::theme;
+use super::wheel::{ZOOM_PER_POINT, wheel_zoom};
 use crate::lab::stress::microscope::{Picture, Pixel, Verdict, View};
 use crate::lab::stress::palette::{SCALE_RAD, colour, colour_at, place_of};
 use crate::math::Isa;
@@ -153,10 +154,8 @@ fn pointer(ui: &Ui, model: &mut Model<'_>, view: &View, rect: Rect, response: &R
     let Some(pos) = response.hover_pos().or(response.interact_pointer_pos()) else {
         return;
     };
-    let scroll = ui.input(|i| i.smooth_scroll_delta.y);
-    if response.contains_pointer() && scroll != 0.0 {
-        let factor = f64::from(scroll * 0.005).exp();
-        set(model, view.zoomed(factor, pixels(pos - rect.min)));
+    if let Some(factor) = wheel_zoom(ui, response, ZOOM_PER_POINT) {
+        set(model, view.zoomed(factor.into(), pixels(pos - rect.min)));
     }
     if response.clicked() {
         let dir = view.directions()(pixels(pos - rect.min));

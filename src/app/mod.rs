@@ -65,6 +65,7 @@ pub mod theme;
 mod turning;
 mod viewport;
 pub mod views;
+mod wheel;
 mod window;
 
 pub use window::{Lost, RunError, Window, run};

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 
+use super::follower::Follower;
 use super::job::{Job, Outcome};
 use super::labs::Lab;
 use super::model::JobLine;
@@ -45,30 +46,29 @@ pub struct Shown {
     pub texture: TextureHandle,
 }
 
-/// A picture and its colours.
-type Made = Option<(Picture, ColorImage)>;
-
-fn made(view: &View, device: &dyn Device, progress: &Progress) -> Made {
-    let picture = look(view, device, progress)?;
-    let pixels = picture.pixels.iter().map(|pixel| {
-        let [r, g, b] = colour(pixel.verdict, pixel.error_rad);
-        Color32::from_rgb(r, g, b)
-    });
-    let image = ColorImage::new(picture.view.size, pixels.collect());
-    Some((picture, image))
+impl Shown {
+    fn of(view: &View, device: &dyn Device, ctx: &Context, progress: &Progress) -> Option<Self> {
+        let picture = look(view, device, progress)?;
+        let pixels = picture.pixels.iter().map(|pixel| {
+            let [r, g, b] = colour(pixel.verdict, pixel.error_rad);
+            Color32::from_rgb(r, g, b)
+        });
+        let image = ColorImage::new(picture.view.size, pixels.collect());
+        // Pixels are seen as they are, also while a picture of another magnification stands in.
+        let texture = ctx.load_texture("microscope", image, TextureOptions::NEAREST);
+        Some(Self { picture, texture })
+    }
 }
 
-/// The last table and the last picture, and the jobs that make the next ones.
+/// The last table and the last picture, and the jobs that make the next ones. The table is measured when it is asked for, so that
+/// it follows no wish.
 #[derive(Default)]
 pub struct StabilityLab {
     /// Runs the shaders among the evaluators, beside the window's own device.
     device: Arc<ShaderDevice>,
     table: Option<Table>,
     measuring: Option<Job<Table>>,
-    shown: Option<Shown>,
-    looking: Option<(View, Job<Made>)>,
-    /// Not looked at again by itself.
-    given_up: Option<View>,
+    microscope: Follower<View, Shown>,
 }
 
 impl StabilityLab {
@@ -93,43 +93,22 @@ impl StabilityLab {
     /// When the system gives no thread.
     pub fn follow(&mut self, wanted: Option<View>, jobs: &mut Jobs<'_>) -> Result<(), String> {
         let of = |view: &View| (view.map, view.evaluator);
-        self.looking
-            .take_if(|(running, _)| wanted.as_ref().map(of) != Some(of(running)));
-        let is_wanted = |view: &View| self.is_missing(view) && self.looking.is_none();
-        let Some(view) = wanted.filter(is_wanted) else {
-            return Ok(());
-        };
-        self.given_up = None;
-        let title = "looking through the microscope".to_owned();
-        let device = Arc::clone(&self.device);
-        match jobs.start(title, move |progress| made(&view, &*device, progress)) {
-            Ok(job) => self.looking = Some((view, job)),
-            Err(why) => {
-                self.given_up = Some(view);
-                return Err(why);
-            }
-        }
-        Ok(())
+        let making = self.microscope.making();
+        let wanted = wanted.map(|view| match making {
+            Some(making) if of(making) == of(&view) => *making,
+            _ => view,
+        });
+        let (device, ctx) = (Arc::clone(&self.device), jobs.ctx.clone());
+        let make = move |view: &View, progress: &_| Shown::of(view, &*device, &ctx, progress);
+        let title = "looking through the microscope";
+        self.microscope.follow(wanted, title, jobs, make)
     }
 
     /// Looks at once: for pictures.
     pub fn look_now(&mut self, wanted: Option<View>, ctx: &Context) {
-        if let Some(view) = wanted.filter(|view| self.is_missing(view)) {
-            self.take_in(made(&view, &*self.device, &Progress::new()), ctx);
-        }
-    }
-
-    fn is_missing(&self, view: &View) -> bool {
-        let is_there = self.shown.as_ref().is_some_and(|s| s.picture.view == *view);
-        !is_there && self.given_up != Some(*view)
-    }
-
-    fn take_in(&mut self, made: Made, ctx: &Context) {
-        if let Some((picture, image)) = made {
-            // Pixels are seen as they are, also while a picture of another magnification stands in.
-            let texture = ctx.load_texture("microscope", image, TextureOptions::NEAREST);
-            self.shown = Some(Shown { picture, texture });
-        }
+        let device = &*self.device;
+        let make = |view: &View, progress: &_| Shown::of(view, device, ctx, progress);
+        self.microscope.complete(wanted, make);
     }
 
     /// The table of a mapping, when it has been measured.
@@ -144,12 +123,12 @@ impl StabilityLab {
 
     /// The last picture.
     pub fn shown(&self) -> Option<&Shown> {
-        self.shown.as_ref()
+        self.microscope.shown().map(|(_, shown)| shown)
     }
 }
 
 impl Lab for StabilityLab {
-    fn poll(&mut self, ctx: &Context) {
+    fn poll(&mut self, _: &Context) {
         if let Some(job) = self.measuring.take() {
             match job.poll() {
                 Outcome::Running => self.measuring = Some(job),
@@ -157,25 +136,16 @@ impl Lab for StabilityLab {
                 Outcome::Failed => {}
             }
         }
-        if let Some((view, job)) = self.looking.take() {
-            match job.poll() {
-                Outcome::Running => self.looking = Some((view, job)),
-                Outcome::Done(made) => self.take_in(made, ctx),
-                Outcome::Failed => self.given_up = Some(view),
-            }
-        }
+        self.microscope.poll();
     }
 
     fn jobs(&self) -> Vec<JobLine> {
         let measuring = self.measuring.iter().map(job_line);
-        let looking = self.looking.iter().map(|(_, job)| job_line(job));
-        measuring.chain(looking).collect()
+        measuring.chain(self.microscope.job()).collect()
     }
 
     fn cancel(&mut self, id: u64) {
         self.measuring.take_if(|job| job.id == id);
-        if let Some((view, _)) = self.looking.take_if(|(_, job)| job.id == id) {
-            self.given_up = Some(view);
-        }
+        self.microscope.cancel(id);
     }
 }

@@ -12,6 +12,7 @@ use super::story::{self, Arrow, dir_of, point_of};
 use super::theme;
 use super::turning::rings_ui;
 use super::views::ViewKey;
+use super::wheel::wheel_zoom;
 use crate::gpu::GREAT_CIRCLE_COLORS;
 use crate::mapping::cube_face::GREAT_CIRCLES;
 use crate::mapping::{MappingId, ShaderForm};
@@ -20,6 +21,8 @@ use crate::scene::{Camera, Ray, Target};
 
 /// Radians that the camera turns for a drag over one point.
 pub(super) const ORBIT_RAD_PER_POINT: f32 = 0.008;
+/// Logarithm of the factor by which a point of scrolling brings the camera nearer.
+const STAGE_ZOOM_PER_POINT: f32 = 0.004;
 /// Points around the divider in which it can be grabbed.
 const DIVIDER_GRIP: f32 = 8.0;
 
@@ -80,11 +83,8 @@ pub(super) fn view_pointer(
         }
         return;
     }
-    if response.contains_pointer() {
-        let scroll = ui.input(|i| i.smooth_scroll_delta.y);
-        if scroll != 0.0 {
-            model.push(Action::Zoom((scroll * 0.004).exp()));
-        }
+    if let Some(factor) = wheel_zoom(ui, response, STAGE_ZOOM_PER_POINT) {
+        model.push(Action::Zoom(factor));
     }
     let Some(pos) = response.hover_pos().or(response.interact_pointer_pos()) else {
         return;

@@ -13,6 +13,7 @@ use crate::app::model::Model;
 use crate::app::state::FoldState;
 use crate::app::theme;
 use crate::app::viewport::{ORBIT_RAD_PER_POINT, aspect};
+use crate::app::wheel::{ZOOM_PER_POINT, wheel_zoom};
 use crate::gpu::GREAT_CIRCLE_COLORS;
 use crate::imaging::FACE_COLORS;
 use crate::mapping::cube_face::GREAT_CIRCLES;
@@ -157,9 +158,8 @@ fn turn(ui: &Ui, model: &mut Model<'_>, response: &egui::Response) {
         let drag = drag * ORBIT_RAD_PER_POINT;
         fold.camera.orbit(drag.x, drag.y);
     }
-    let scroll = ui.input(|i| i.smooth_scroll_delta.y);
-    if response.contains_pointer() && scroll != 0.0 {
-        fold.camera.zoom((scroll * 0.005).exp());
+    if let Some(factor) = wheel_zoom(ui, response, ZOOM_PER_POINT) {
+        fold.camera.zoom(factor);
     }
     if response.double_clicked() {
         fold.camera = FoldState::default().camera;
