@@ -50,7 +50,8 @@ fn the_menu_opens_the_pane_and_a_list_chooses_what_it_compares() {
     ui.get_by_label(SHEET);
     ui.get_by_role_and_label(Role::ComboBox, "beside").click();
     settle(&mut ui);
-    ui.get_by_role_and_label(Role::Button, "Continuous cube map").click();
+    ui.get_by_role_and_label(Role::Button, "Continuous cube map")
+        .click();
     settle(&mut ui);
     assert_eq!(state(&ui).sampling.other, MappingId::Ccm);
     assert!(rests(&mut ui));

@@ -42,15 +42,16 @@ impl Sampling {
             ))
         };
         /// Steps around: no texel is that small.
-        const STEPS: u32 = 4096;
+        const STEPS: u32 = 2048;
         /// Off the round angles, at which texels end.
         const OFFSET: f64 = 0.37;
         let angle = |step: u32| TAU * (f64::from(step) + OFFSET) / f64::from(STEPS);
         let mut borders_rad = Vec::new();
+        let mut next = texel(angle(0));
         for step in 0..STEPS {
             let (mut low, mut high) = (angle(step), angle(step + 1));
-            let first = texel(low);
-            if first == texel(high) {
+            let first = std::mem::replace(&mut next, texel(high));
+            if first == next {
                 continue;
             }
             while high - low > 4.0 * f64::EPSILON * TAU {
