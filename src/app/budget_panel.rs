@@ -143,13 +143,8 @@ fn cells(rect: Rect, count: usize) -> Vec<Rect> {
 
 /// The pictures in all the space there is; gives back the direction that is seen under the pointer.
 pub fn pictures_ui(ui: &mut Ui, model: &mut Model<'_>) -> Option<Vec3<f64>> {
-    let whole = ui.available_rect_before_wrap();
-    if whole.width() < 1.0 || whole.height() < 1.0 {
-        return None;
-    }
-    let [r, g, b] = theme::PICTURE_BACKGROUND;
-    let ground = Color32::from_rgb(r, g, b);
-    ui.painter().rect_filled(whole, 0.0, ground);
+    let whole = theme::picture_room(ui)?;
+    theme::paint_ground(ui.painter(), whole);
     let count = if model.state.budget.shows_surroundings {
         3
     } else {

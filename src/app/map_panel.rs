@@ -24,13 +24,11 @@ pub fn window_of(view: &PanelState, rect: Rect) -> PanelWindow {
 
 /// Shows the panel in all the space there is.
 pub fn map_panel_ui(ui: &mut Ui, model: &mut Model<'_>, mapping: MappingId) {
-    let rect = ui.available_rect_before_wrap();
-    if rect.width() < 1.0 || rect.height() < 1.0 {
-        return;
-    }
     let name = format!("Panel: {}", mapping.info().name);
-    let response = ui.allocate_rect(rect, Sense::click_and_drag());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
+    let Some(response) = theme::picture_ui(ui, &name, Sense::click_and_drag()) else {
+        return;
+    };
+    let rect = response.rect;
     model.view_ui(ui, ViewKey::Panel(mapping), rect);
     let view = model.state.panel(mapping);
     let window = window_of(&view, rect);

@@ -22,13 +22,10 @@ const MOST_PIXELS: f32 = (1 << 20) as f32;
 
 /// Shows the microscope in all the space there is.
 pub fn microscope_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    let whole = ui.available_rect_before_wrap();
-    if whole.width() < 1.0 || whole.height() < 1.0 {
+    let Some(whole) = theme::picture_room(ui) else {
         return;
-    }
-    let [r, g, b] = theme::PICTURE_BACKGROUND;
-    ui.painter()
-        .rect_filled(whole, 0.0, Color32::from_rgb(r, g, b));
+    };
+    theme::paint_ground(ui.painter(), whole);
     let below = legend_height(whole.width());
     let has_legend = whole.height() >= LEAST_PICTURE + below;
     let mut rect = whole;

@@ -63,16 +63,13 @@ fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
 
 /// The sheet alone, in all the space there is.
 pub fn sheet_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    let rect = ui.available_rect_before_wrap();
-    if rect.width() < 1.0 || rect.height() < 1.0 {
-        return;
-    }
-    let response = ui.allocate_rect(rect, Sense::hover());
     let name = "Cut through the horizon, seen from above";
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    let Some(response) = theme::picture_ui(ui, name, Sense::hover()) else {
+        return;
+    };
+    let rect = response.rect;
     let painter = ui.painter_at(rect);
-    let [r, g, b] = theme::PICTURE_BACKGROUND;
-    painter.rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
+    theme::paint_ground(&painter, rect);
     let size = [rect.width() as u32, rect.height() as u32];
     let kept = |map: MappingId, quarter: u32| {
         ui.memory_mut(|memory| {

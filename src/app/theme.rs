@@ -31,11 +31,28 @@ pub const LIT: Color32 = Color32::from_rgb(0, 92, 140);
 
 /// A pane that shows text: the pictures' ground, with a margin, over all the space there is.
 pub fn pane_frame(ui: &mut egui::Ui) -> egui::Frame {
-    let [r, g, b] = PICTURE_BACKGROUND;
-    let ground = Color32::from_rgb(r, g, b);
-    ui.painter()
-        .rect_filled(ui.available_rect_before_wrap(), 0.0, ground);
+    paint_ground(ui.painter(), ui.available_rect_before_wrap());
     egui::Frame::new().inner_margin(6.0)
+}
+
+/// The room for a picture; `None` where there is none.
+pub fn picture_room(ui: &egui::Ui) -> Option<egui::Rect> {
+    let rect = ui.available_rect_before_wrap();
+    (rect.width() >= 1.0 && rect.height() >= 1.0).then_some(rect)
+}
+
+/// Takes all the room there is for a picture of that name.
+pub fn picture_ui(ui: &mut egui::Ui, name: &str, sense: egui::Sense) -> Option<egui::Response> {
+    let rect = picture_room(ui)?;
+    let response = ui.allocate_rect(rect, sense);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
+    Some(response)
+}
+
+/// What lies behind pictures that do not fill their place.
+pub fn paint_ground(painter: &egui::Painter, rect: egui::Rect) {
+    let [r, g, b] = PICTURE_BACKGROUND;
+    painter.rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
 }
 
 /// A pane of text that scrolls: down where it is long, sideways below a width. `content` is told the pane's height.

@@ -31,12 +31,11 @@ const NAME_SPACE: Vec2 = vec2(34.0, 9.0);
 
 /// Shows the viewport in all the space there is.
 pub fn viewport_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    let rect = ui.available_rect_before_wrap();
-    if rect.width() < 1.0 || rect.height() < 1.0 {
+    let sense = Sense::click_and_drag();
+    let Some(response) = theme::picture_ui(ui, "The viewport", sense) else {
         return;
-    }
-    let response = ui.allocate_rect(rect, Sense::click_and_drag());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "The viewport"));
+    };
+    let rect = response.rect;
     model.view_ui(ui, ViewKey::Viewport, rect);
     let on_divider = divider_ui(ui, model, rect);
     let on_ring = rings_ui(ui, model, rect);

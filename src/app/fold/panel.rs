@@ -66,12 +66,11 @@ fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
 
 /// The surface alone, in all the space there is.
 pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    let rect = ui.available_rect_before_wrap();
-    if rect.width() < 1.0 || rect.height() < 1.0 {
+    let sense = Sense::click_and_drag();
+    let Some(response) = theme::picture_ui(ui, "Folded map", sense) else {
         return;
-    }
-    let response = ui.allocate_rect(rect, Sense::click_and_drag());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Folded map"));
+    };
+    let rect = response.rect;
     let state = model.state;
     let surface = Surface::new(
         state.mapping,
@@ -82,8 +81,7 @@ pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let quads = surface.quads();
     let on_screen = |at: [f32; 2]| rect.min + vec2(at[0], at[1]) * rect.size();
     let painter = ui.painter_at(rect);
-    let [r, g, b] = theme::PICTURE_BACKGROUND;
-    painter.rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
+    theme::paint_ground(&painter, rect);
 
     let see_through = state.fold.see_through;
     if let Some(ground) = ground_of(model) {
