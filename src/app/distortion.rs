@@ -1,4 +1,4 @@
-//! Distortion over the panels: heat maps that are made where they are shown, Tissot's ellipses, and the legend.
+//! Distortion over the panels: heat maps that are made where they are shown, and the legend. Tissot's ellipses are in `ellipses.rs`.
 
 use std::collections::HashMap;
 
@@ -6,7 +6,7 @@ use egui::{Align2, Color32, ColorImage, Context, Painter, Pos2, Rect, TextureOpt
 
 use super::follower::Follower;
 use super::labs::Lab;
-use super::marks::{colour_bar, edged_line, edged_text};
+use super::marks::{colour_bar, edged_text};
 use super::model::{JobLine, Model};
 use super::numbers::significant;
 use super::object::Jobs;
@@ -15,9 +15,8 @@ use super::theme;
 use crate::imaging::Progress;
 use crate::imaging::resample::texels_of;
 use crate::lab::metrics::heat::heat;
-use crate::lab::metrics::tissot::{OUTLINE, indicatrices};
 use crate::lab::metrics::{Quantity, Yardstick};
-use crate::mapping::{ChartPoint, MappingId};
+use crate::mapping::MappingId;
 use crate::math::Vec3;
 
 /// A heat map.
@@ -132,8 +131,8 @@ pub fn paint_distortion(
         paint_heat(model, painter, mapping, quantity, window);
     }
     if overlays.ellipses {
-        let spacing = f64::from(overlays.ellipses_deg);
-        paint_ellipses(painter, mapping, spacing, window);
+        model.ellipses_wanted.push(mapping);
+        model.labs.ellipses.paint(painter, mapping, window);
     }
 }
 
@@ -159,28 +158,6 @@ fn paint_heat(
     if let Some(picture) = model.labs.heat.picture(mapping, Seen::Panel, quantity) {
         let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
         painter.image(picture, rect, whole, Color32::WHITE);
-    }
-}
-
-/// What the mapping makes of equal circles of the sphere.
-fn paint_ellipses(painter: &Painter, mapping: MappingId, spacing_deg: f64, window: &PanelWindow) {
-    let layout = mapping.info().layout;
-    for ellipse in indicatrices(mapping, spacing_deg) {
-        let on_screen = |point| Some(window.screen_from_picture(layout.picture_from_chart(point)?));
-        let chart = ellipse.middle.chart;
-        let corner = |c: f64| on_screen(ChartPoint::new(chart, c, c));
-        let (Some(a), Some(b)) = (corner(0.0), corner(1.0)) else {
-            continue;
-        };
-        // Beyond its chart another one lies, for which it does not stand.
-        let painter =
-            painter.with_clip_rect(painter.clip_rect().intersect(Rect::from_two_pos(a, b)));
-        let mut outline: Vec<Pos2> = ellipse.outline(OUTLINE).filter_map(on_screen).collect();
-        if outline.iter().any(|at| painter.clip_rect().contains(*at)) {
-            // Not filled: near a rim it may be thinner than a fill's soft edge.
-            outline.extend(outline.first().copied());
-            edged_line(&painter, outline, 1.2, theme::PROBE);
-        }
     }
 }
 

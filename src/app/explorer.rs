@@ -18,6 +18,7 @@ use super::dialogs::{Dialog, dialog_ui};
 use super::distortion::HeatWanted;
 use super::export::Export;
 use super::files::Opened;
+use super::fold::SheetWanted;
 use super::frame::frame_of;
 use super::history::History;
 use super::job::Job;
@@ -34,6 +35,7 @@ use super::texel_color::{TexelColor, TexelKey};
 use super::views::{ViewKey, Views};
 use super::{bars, keys, sides, story};
 use crate::gpu::{Gpu, Renderer};
+use crate::mapping::MappingId;
 
 use jobs::{Errand, Ready};
 
@@ -64,6 +66,8 @@ pub struct Explorer {
     errors_wanted: Option<laboratory::Wanted>,
     heat_wanted: Vec<HeatWanted>,
     folds: bool,
+    sheet_wanted: Option<SheetWanted>,
+    ellipses_wanted: Vec<MappingId>,
     surroundings: Option<Surroundings>,
     loading: Option<Job<Result<Loading, Refusal>>>,
     opening: Option<Job<Result<Opened, String>>>,
@@ -111,6 +115,8 @@ impl Explorer {
             errors_wanted: None,
             heat_wanted: Vec::new(),
             folds: false,
+            sheet_wanted: None,
+            ellipses_wanted: Vec::new(),
             surroundings: None,
             loading: None,
             opening: None,
@@ -215,7 +221,9 @@ impl Explorer {
         self.compare_budget(&ctx);
         self.picture_errors(&ctx);
         self.paint_heat(&ctx);
+        self.trace_ellipses(&ctx);
         self.light_fold(&ctx);
+        self.trace_fold(&ctx);
         self.rank(&ctx);
         self.measure_pace(&ctx);
         // What was just changed is seen in the next frame; a still window asks for none.
@@ -249,7 +257,9 @@ impl Explorer {
         self.draw_views(&ctx, &laid_out);
         self.look(&ctx);
         self.paint_heat(&ctx);
+        self.trace_ellipses(&ctx);
         self.light_fold(&ctx);
+        self.trace_fold(&ctx);
         self.compare_budget(&ctx);
         self.rank(&ctx);
     }
@@ -278,6 +288,8 @@ impl Explorer {
             errors_wanted: None,
             heat_wanted: Vec::new(),
             folds: false,
+            sheet_wanted: None,
+            ellipses_wanted: Vec::new(),
             seen: Vec::new(),
             microscope_px: None,
             budget_view: None,
@@ -300,6 +312,7 @@ impl Explorer {
         self.budget_view = model.budget_view;
         (self.seen, self.errors_wanted) = (model.seen, model.errors_wanted);
         (self.heat_wanted, self.folds) = (model.heat_wanted, model.folds);
+        (self.sheet_wanted, self.ellipses_wanted) = (model.sheet_wanted, model.ellipses_wanted);
         (commands, laid_out)
     }
 

@@ -2,14 +2,16 @@
 
 mod lines;
 mod panel;
+mod sheet;
 mod view;
 
 use std::sync::Arc;
 
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 
-pub use lines::{Line, letters, lines, seen};
+pub use lines::{Line, letters, lines, project, seen};
 pub use panel::{fold_ui, surface_ui};
+pub use sheet::{Sheet, SheetWanted};
 pub use view::{CLOSED, Quad, Surface};
 
 use super::follower::Follower;
@@ -69,11 +71,13 @@ impl LightWanted {
     }
 }
 
-/// The light that was made last.
+/// The light and the lines that were made last.
 #[derive(Default)]
 pub struct FoldLab {
     /// Made while the pane is seen.
     pub light: Follower<LightWanted, TextureHandle>,
+    /// The same of what is drawn over it, and on what.
+    pub sheet: Follower<SheetWanted, Sheet>,
 }
 
 impl FoldLab {
@@ -82,18 +86,29 @@ impl FoldLab {
         let (of, picture) = self.light.shown()?;
         (of.mapping == mapping).then(|| picture.id())
     }
+
+    /// The pieces and the lines of a mapping, when they are there; while other lines are traced, the last ones stand in.
+    pub fn sheet_of(&self, mapping: MappingId) -> Option<(&SheetWanted, &Sheet)> {
+        self.sheet.shown().filter(|(of, _)| of.mapping == mapping)
+    }
 }
 
 impl Lab for FoldLab {
     fn poll(&mut self, _: &Context) {
         self.light.poll();
+        self.sheet.poll();
     }
 
     fn jobs(&self) -> Vec<JobLine> {
-        self.light.job().into_iter().collect()
+        self.light
+            .job()
+            .into_iter()
+            .chain(self.sheet.job())
+            .collect()
     }
 
     fn cancel(&mut self, id: u64) {
         self.light.cancel(id);
+        self.sheet.cancel(id);
     }
 }

@@ -4,6 +4,7 @@ use egui::Context;
 
 use super::budget::BudgetLab;
 use super::distortion::HeatMaps;
+use super::ellipses::EllipsesLab;
 use super::fold::FoldLab;
 use super::laboratory::BenchLab;
 use super::loss::LossLab;
@@ -36,6 +37,8 @@ pub struct Labs {
     pub bench: BenchLab,
     /// Heat maps of distortion.
     pub heat: HeatMaps,
+    /// Tissot's ellipses.
+    pub ellipses: EllipsesLab,
     /// The light of the folded map.
     pub fold: FoldLab,
     /// Two mappings with as many texels.
@@ -45,24 +48,26 @@ pub struct Labs {
 }
 
 impl Labs {
-    fn all(&self) -> [&dyn Lab; 7] {
+    fn all(&self) -> [&dyn Lab; 8] {
         [
             &self.loss,
             &self.bench,
             &self.stability,
             &self.heat,
+            &self.ellipses,
             &self.fold,
             &self.budget,
             &self.ranking,
         ]
     }
 
-    fn all_mut(&mut self) -> [&mut dyn Lab; 7] {
+    fn all_mut(&mut self) -> [&mut dyn Lab; 8] {
         [
             &mut self.loss,
             &mut self.bench,
             &mut self.stability,
             &mut self.heat,
+            &mut self.ellipses,
             &mut self.fold,
             &mut self.budget,
             &mut self.ranking,

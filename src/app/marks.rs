@@ -1,14 +1,21 @@
 //! Lines and arrows with an edge, readable on every picture.
 
-use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Vec2};
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 
 use super::theme::{PROBE_EDGE, TEXEL};
 
 /// A line with a dark edge.
 pub fn edged_line(painter: &Painter, points: Vec<Pos2>, width: f32, color: Color32) {
+    painter.extend(edged(points, width, color));
+}
+
+/// The shapes of a line with a dark edge.
+pub fn edged(points: Vec<Pos2>, width: f32, color: Color32) -> [Shape; 2] {
     let edge = PROBE_EDGE.gamma_multiply(0.7);
-    painter.line(points.clone(), Stroke::new(width + 2.0, edge));
-    painter.line(points, Stroke::new(width, color));
+    [
+        Shape::line(points.clone(), Stroke::new(width + 2.0, edge)),
+        Shape::line(points, Stroke::new(width, color)),
+    ]
 }
 
 /// The colours of a scale, from share 0 at the left to 1 at the right.

@@ -11,6 +11,7 @@ use super::action::Action;
 use super::arrangement::Pane;
 use super::command::Command;
 use super::distortion::HeatWanted;
+use super::fold::SheetWanted;
 use super::history::History;
 use super::laboratory::{Used, Wanted};
 use super::labs::Labs;
@@ -87,6 +88,10 @@ pub struct Model<'a> {
     pub heat_wanted: Vec<HeatWanted>,
     /// The light of the folded map is seen.
     pub folds: bool,
+    /// The pieces and the lines of the folded map that is seen.
+    pub sheet_wanted: Option<SheetWanted>,
+    /// The mappings over which Tissot's ellipses are seen.
+    pub ellipses_wanted: Vec<MappingId>,
     /// The panes that are drawn: what only a hidden one would show is not computed.
     pub seen: Vec<Pane>,
     /// Pixels of the microscope's picture, where it is laid out.

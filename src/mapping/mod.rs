@@ -49,7 +49,7 @@ pub use layout::{Cell, Layout};
 pub use shader_form::ShaderForm;
 pub use slices::{DirList, Dirs, DirsMut, NOWHERE, PointList, Points, PointsMut};
 pub use turn::Turn;
-pub use unfolding::{Solid, Unfolding};
+pub use unfolding::{Folded, Solid, Unfolding, Way};
 
 use crate::math::{Real, Vec3};
 

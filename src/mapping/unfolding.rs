@@ -79,26 +79,34 @@ impl Unfolding {
 
     /// Where a point of a chart is, `share` of the way from the flat picture (0) by the solid (1/2) to the unit sphere (1).
     pub fn place(&self, point: ChartPoint<f64>, share: f64) -> Vec3<f64> {
+        self.folded(share).place(&self.way(point))
+    }
+
+    /// What of a point's way is the same wherever it is stopped.
+    pub fn way(&self, point: ChartPoint<f64>) -> Way {
+        Way {
+            point,
+            start: match self.solid {
+                Some(Solid::Cube | Solid::Cylinder) => Vec3::new(0.0, 0.0, 0.0),
+                Some(Solid::Octahedron) => self.octahedron(point),
+                None => self.flat(point),
+            },
+            sphere: self.from_world(self.map.continued(point)),
+        }
+    }
+
+    /// The map stopped at a share of its way; see [`Unfolding::place`].
+    pub fn folded(&self, share: f64) -> Folded {
         let share = share.clamp(0.0, 1.0);
-        let (first, second) = ((2.0 * share).min(1.0), (2.0 * share - 1.0).max(0.0));
-        let sphere = || self.from_world(self.map.continued(point));
-        match self.solid {
-            Some(Solid::Cube) if second == 0.0 => net_to_cube(point, first * FRAC_PI_2),
-            Some(Solid::Cube) => mix(net_to_cube(point, FRAC_PI_2), sphere(), second),
-            Some(Solid::Octahedron) if second == 0.0 => {
-                let [x, y] = [2.0 * point.u - 1.0, 1.0 - 2.0 * point.v];
-                mix(Vec3::new(x, y, 0.0), self.octahedron(point), first)
-            }
-            Some(Solid::Octahedron) => mix(self.octahedron(point), sphere(), second),
-            Some(Solid::Cylinder) => {
-                let rolled = rolled(point, self.map.info().aspect, first);
-                if second == 0.0 {
-                    rolled
-                } else {
-                    mix(rolled, sphere(), second)
-                }
-            }
-            None => mix(self.flat(point), sphere(), share),
+        let first = (2.0 * share).min(1.0);
+        let angle = first * FRAC_PI_2;
+        Folded {
+            solid: self.solid,
+            aspect: self.map.info().aspect,
+            share,
+            first,
+            second: (2.0 * share - 1.0).max(0.0),
+            hinges: [angle, 2.0 * angle].map(f64::sin_cos),
         }
     }
 
@@ -152,16 +160,62 @@ impl Unfolding {
     }
 }
 
+/// A point of a chart, and what of its way is the same wherever it is stopped.
+#[derive(Clone, Copy, Debug)]
+pub struct Way {
+    /// The point.
+    pub point: ChartPoint<f64>,
+    /// Its place on the octahedron, or on the flat picture that goes straight to the sphere.
+    start: Vec3<f64>,
+    /// Its place on the sphere.
+    sphere: Vec3<f64>,
+}
+
+/// A map that is stopped on its way.
+#[derive(Clone, Copy, Debug)]
+pub struct Folded {
+    solid: Option<Solid>,
+    aspect: f64,
+    /// Of the whole way, of that to the solid, and of that from there on.
+    share: f64,
+    first: f64,
+    second: f64,
+    /// Sine and cosine of the angle by which a cube's hinges are bent, and of twice that.
+    hinges: [(f64, f64); 2],
+}
+
+impl Folded {
+    /// Where a point is.
+    pub fn place(&self, way: &Way) -> Vec3<f64> {
+        let Way {
+            point,
+            start,
+            sphere,
+        } = *way;
+        let on_solid = match self.solid {
+            None => return mix(start, sphere, self.share),
+            Some(Solid::Cube) => net_to_cube(point, self.hinges),
+            Some(Solid::Octahedron) if self.second == 0.0 => {
+                let flat = Vec3::new(2.0 * point.u - 1.0, 1.0 - 2.0 * point.v, 0.0);
+                mix(flat, start, self.first)
+            }
+            Some(Solid::Octahedron) => start,
+            Some(Solid::Cylinder) => rolled(point, self.aspect, self.first),
+        };
+        mix(on_solid, sphere, self.second)
+    }
+}
+
 fn mix(from: Vec3<f64>, to: Vec3<f64>, share: f64) -> Vec3<f64> {
     from + (to - from) * share
 }
 
 /// A point of a face of the cross, whose hinges are all bent by an angle from 0, flat, to a right angle, the cube. The far face
-/// hangs on its neighbour.
-fn net_to_cube(point: ChartPoint<f64>, angle: f64) -> Vec3<f64> {
+/// hangs on its neighbour. `hinges`: sine and cosine of the angle, and of twice that.
+fn net_to_cube(point: ChartPoint<f64>, hinges: [(f64, f64); 2]) -> Vec3<f64> {
     const H: f64 = HALF_EDGE;
     let [a, b] = [point.u, point.v].map(|c| 2.0 * c - 1.0);
-    let (sin, cos) = angle.sin_cos();
+    let [(sin, cos), far] = hinges;
     // `d` along the face from its hinge.
     let bent = |d: f64| (H + d * cos, H - d * sin);
     match point.chart {
@@ -184,7 +238,7 @@ fn net_to_cube(point: ChartPoint<f64>, angle: f64) -> Vec3<f64> {
         4 => Vec3::new(a * H, -b * H, H),
         _ => {
             let (x, z) = bent(2.0 * H);
-            let (sin, cos) = (2.0 * angle).sin_cos();
+            let (sin, cos) = far;
             let d = (a + 1.0) * H;
             Vec3::new(x + d * cos, -b * H, z - d * sin)
         }
@@ -197,12 +251,9 @@ fn rolled(point: ChartPoint<f64>, aspect: f64, curvature: f64) -> Vec3<f64> {
     let y = (0.5 - point.v) * TAU / aspect;
     let half = 0.5 * curvature * along;
     // sin(c l)/c and (cos(c l) - 1)/c, without a division by a small c.
-    let ratio = if half == 0.0 { 1.0 } else { half.sin() / half };
-    Vec3::new(
-        along * ratio * half.cos(),
-        y,
-        1.0 - along * ratio * half.sin(),
-    )
+    let (sin, cos) = half.sin_cos();
+    let ratio = if half == 0.0 { 1.0 } else { sin / half };
+    Vec3::new(along * ratio * cos, y, 1.0 - along * ratio * sin)
 }
 
 #[cfg(test)]

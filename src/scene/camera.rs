@@ -131,6 +131,7 @@ impl Default for Camera {
 }
 
 /// Unit axes of the view, in the world.
+#[derive(Clone, Copy, Debug)]
 struct Axes {
     right: Vec3,
     up: Vec3,
@@ -284,25 +285,54 @@ impl Camera {
     /// `[0, 1]^2`: beside the screen.
     #[must_use]
     pub fn project(&self, point: Vec3, aspect: f32) -> Option<(f32, f32)> {
-        let Axes { right, up, forward } = self.axes();
-        let view = Vec3::new(right.dot(point), up.dot(point), forward.dot(point));
-        self.uv_of_view(view + self.sanitized().distance * Vec3::Z, aspect)
+        self.projection(aspect).project(point)
+    }
+
+    /// What projects many points onto a screen of width / height = `aspect`.
+    #[must_use]
+    pub fn projection(&self, aspect: f32) -> Projection {
+        Projection {
+            axes: self.axes(),
+            distance: self.sanitized().distance,
+            half_extent: self.half_extent(aspect),
+        }
     }
 
     /// Where the point at infinity in direction `dir` (of any length) is seen, a star of the sky; `None` when it is
     /// not in front of the eye.
     #[must_use]
     pub fn project_direction(&self, dir: Vec3, aspect: f32) -> Option<(f32, f32)> {
-        let Axes { right, up, forward } = self.axes();
         let dir = dir.try_normalize()?;
-        self.uv_of_view(
-            Vec3::new(right.dot(dir), up.dot(dir), forward.dot(dir)),
-            aspect,
-        )
+        let projection = self.projection(aspect);
+        projection.uv_of_view(projection.axes.view_of(dir))
+    }
+}
+
+impl Axes {
+    fn view_of(&self, dir: Vec3) -> Vec3 {
+        Vec3::new(self.right.dot(dir), self.up.dot(dir), self.forward.dot(dir))
+    }
+}
+
+/// A camera before a screen of some shape: it finds where points are seen, as [`Camera::project`] does, but what is the same for all of them
+/// only once.
+#[derive(Clone, Copy, Debug)]
+pub struct Projection {
+    axes: Axes,
+    distance: f32,
+    /// Of the width and of the height, one unit ahead.
+    half_extent: (f32, f32),
+}
+
+impl Projection {
+    /// Where `point` of the world is seen; see [`Camera::project`].
+    #[must_use]
+    pub fn project(&self, point: Vec3) -> Option<(f32, f32)> {
+        self.uv_of_view(self.axes.view_of(point) + self.distance * Vec3::Z)
     }
 
-    fn uv_of_view(&self, view: Vec3, aspect: f32) -> Option<(f32, f32)> {
-        let (half_width, half_height) = self.half_extent(aspect);
+    fn uv_of_view(&self, view: Vec3) -> Option<(f32, f32)> {
+        let (half_width, half_height) = self.half_extent;
         let x = view.x / (view.z * half_width);
         let y = view.y / (view.z * half_height);
         (view.z > 0.0 && x.is_finite() && y.is_finite()).then_some((0.5 + 0.5 * x, 0.5 - 0.5 * y))

@@ -12,7 +12,7 @@ mod rows;
 mod teapot;
 pub mod trace;
 
-pub use camera::{Camera, Ray, RayFrame};
+pub use camera::{Camera, Projection, Ray, RayFrame};
 pub use mesh::Mesh;
 pub use mirror::{Seen, mirror_view};
 pub use object::Object;

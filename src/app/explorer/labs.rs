@@ -8,7 +8,8 @@ use super::Explorer;
 use super::jobs::Errand;
 use crate::app::arrangement::Pane;
 use crate::app::budget;
-use crate::app::fold::LightWanted;
+use crate::app::ellipses::EllipsesWanted;
+use crate::app::fold::{LightWanted, SheetWanted};
 use crate::app::laboratory;
 use crate::app::labs::Labs;
 use crate::app::loss::Wanted;
@@ -129,6 +130,31 @@ impl Explorer {
             let light = &mut labs.fold.light;
             light.follow(wanted, "the light to fold", jobs, make)
         });
+    }
+
+    /// Traces the pieces and the lines of the folded map that is seen.
+    pub(super) fn trace_fold(&mut self, ctx: &Context) {
+        let wanted = self.sheet_wanted.take();
+        if self.complete {
+            self.labs.fold.sheet.complete(wanted, SheetWanted::make);
+            return;
+        }
+        self.start(ctx, |labs, _, jobs| {
+            let sheet = &mut labs.fold.sheet;
+            sheet.forget(|_| wanted.is_none());
+            sheet.follow(wanted, "the lines to fold", jobs, SheetWanted::make)
+        });
+    }
+
+    /// Traces the ellipses that are seen.
+    pub(super) fn trace_ellipses(&mut self, ctx: &Context) {
+        let mappings = std::mem::take(&mut self.ellipses_wanted);
+        let wanted = EllipsesWanted::new(mappings, self.state.overlays.ellipses_deg);
+        if self.complete {
+            self.labs.ellipses.complete(wanted);
+            return;
+        }
+        self.start(ctx, |labs, _, jobs| labs.ellipses.follow(wanted, jobs));
     }
 
     /// Measures how every mapping distorts while the ranking is seen.

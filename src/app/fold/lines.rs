@@ -1,10 +1,10 @@
 //! The lines on a folded map, as they are seen.
 
-use super::view::Surface;
+use super::view::{LinePoint, Surface};
 use crate::app::map_lines::{Kind, MapLine, goes_on, map_lines};
 use crate::app::state::Overlays;
-use crate::mapping::ChartPoint;
 use crate::mapping::cube_face::GREAT_CIRCLES;
+use crate::mapping::{ChartPoint, Unfolding};
 
 /// A line that is seen from one side.
 #[derive(Clone, Debug)]
@@ -38,25 +38,56 @@ pub fn letters(lines: &[Line]) -> Vec<(usize, [f32; 2])> {
 
 /// Where lines of the map are seen.
 pub fn seen(surface: &Surface, map_lines: &[MapLine]) -> Vec<Line> {
+    let unfolding = Unfolding::new(surface.map());
+    let trace = |line: &MapLine| TracedLine::new(&unfolding, line);
+    let traced: Vec<TracedLine> = map_lines.iter().map(trace).collect();
+    project(surface, &traced)
+}
+
+/// Where traced lines are seen.
+pub fn project(surface: &Surface, traced: &[TracedLine]) -> Vec<Line> {
     let mut lines = Vec::new();
-    for MapLine { kind, points } in map_lines {
-        cut(surface, *kind, points, &mut lines);
+    for line in traced {
+        cut(surface, line, &mut lines);
     }
     lines
 }
 
+/// A line of the map, traced however the map is folded and wherever it is seen from.
+pub struct TracedLine {
+    kind: Kind,
+    points: Vec<LinePoint>,
+}
+
+impl TracedLine {
+    /// Traces a line.
+    pub fn new(unfolding: &Unfolding, line: &MapLine) -> Self {
+        let trace = |point: &ChartPoint<f64>| LinePoint::new(unfolding, *point);
+        Self {
+            kind: line.kind,
+            points: line.points.iter().map(trace).collect(),
+        }
+    }
+}
+
 /// Adds what of a line is in one piece: on one chart, without a jump, seen from one side.
-fn cut(surface: &Surface, kind: Kind, points: &[ChartPoint<f64>], lines: &mut Vec<Line>) {
+fn cut(surface: &Surface, traced: &TracedLine, lines: &mut Vec<Line>) {
+    let mut end = |line: Option<Line>| lines.extend(line.filter(|line| line.at.len() > 1));
+    let begin = |at: [f32; 2], is_outside: bool| Line {
+        kind: traced.kind,
+        at: vec![at],
+        is_outside,
+    };
     let mut last: Option<ChartPoint<f64>> = None;
     let mut now: Option<Line> = None;
-    for point in points {
-        let Some((at, _)) = surface.seen(*point) else {
-            lines.extend(now.take());
+    for line_point in &traced.points {
+        let Some((at, is_outside)) = surface.side(line_point) else {
+            end(now.take());
             last = None;
             continue;
         };
-        let is_outside = surface.is_outside(*point);
-        let is_near = last.is_some_and(|last| goes_on(last, *point));
+        let point = line_point.point();
+        let is_near = last.is_some_and(|last| goes_on(last, point));
         match &mut now {
             Some(line) if is_near && line.is_outside == is_outside => line.at.push(at),
             Some(line) => {
@@ -64,24 +95,13 @@ fn cut(surface: &Surface, kind: Kind, points: &[ChartPoint<f64>], lines: &mut Ve
                 if is_near {
                     line.at.push(at);
                 }
-                lines.extend(now.replace(Line {
-                    kind,
-                    at: vec![at],
-                    is_outside,
-                }));
+                end(now.replace(begin(at, is_outside)));
             }
-            None => {
-                now = Some(Line {
-                    kind,
-                    at: vec![at],
-                    is_outside,
-                });
-            }
+            None => now = Some(begin(at, is_outside)),
         }
-        last = Some(*point);
+        last = Some(point);
     }
-    lines.extend(now);
-    lines.retain(|line| line.at.len() > 1);
+    end(now);
 }
 
 #[cfg(test)]

@@ -1,14 +1,16 @@
 //! The pane: a slider from the flat picture to the sphere, and the surface.
 
 use egui::epaint::{Mesh, Vertex};
-use egui::{Align2, Color32, Pos2, RichText, Sense, Slider, Ui, pos2, vec2};
+use egui::{Align2, Color32, Pos2, RichText, Sense, Shape, Slider, Ui, pos2, vec2};
 
-use super::lines::{letters, lines};
+use super::lines::{letters, project};
+use super::sheet::{Sheet, SheetWanted};
 use super::view::{CLOSED, Quad, Surface};
 use crate::app::action::{Action, probe_at};
 use crate::app::distortion::{HeatWanted, Seen, paint_legend};
+use crate::app::kept::kept;
 use crate::app::map_lines::Kind;
-use crate::app::marks::{cross_mark, edged_line, edged_text};
+use crate::app::marks::{cross_mark, edged, edged_text};
 use crate::app::model::Model;
 use crate::app::state::FoldState;
 use crate::app::theme;
@@ -72,57 +74,27 @@ pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
     };
     let rect = response.rect;
     let state = model.state;
-    let surface = Surface::new(
-        state.mapping,
-        state.fold.share,
-        state.fold.camera,
-        aspect(rect),
-    );
-    let quads = surface.quads();
-    let on_screen = |at: [f32; 2]| rect.min + vec2(at[0], at[1]) * rect.size();
     let painter = ui.painter_at(rect);
     theme::paint_ground(&painter, rect);
-
-    let see_through = state.fold.see_through;
-    if let Some(ground) = ground_of(model) {
-        // The insides that are seen lie behind all outsides: on a closed surface, and on one that opens towards the eye.
-        for is_outside in [false, true] {
-            let tint = if is_outside && see_through {
-                Color32::from_white_alpha(70)
-            } else {
-                Color32::WHITE
-            };
-            let own = quads.iter().filter(|quad| quad.is_outside == is_outside);
-            painter.add(mesh(state.mapping, ground, own, tint, on_screen));
+    let mapping = state.mapping;
+    let ground = ground_of(model);
+    model.sheet_wanted = Some(SheetWanted::new(mapping, state.overlays));
+    let surface = Surface::new(mapping, state.fold.share, state.fold.camera, aspect(rect));
+    let on_screen = |at: [f32; 2]| rect.min + vec2(at[0], at[1]) * rect.size();
+    let drawn = model.labs.fold.sheet_of(mapping).map(|(of, sheet)| {
+        let key = (*of, state.fold, ground, rect);
+        kept(ui, response.id, key, || {
+            Drawn::new(&surface, sheet, state.fold, ground, on_screen)
+        })
+    });
+    if let Some(drawn) = &drawn {
+        painter.extend(drawn.shapes.iter().cloned());
+        for &(index, at) in &drawn.letters {
+            let name = GREAT_CIRCLES[index].0.to_string();
+            let color = pen(Kind::GreatCircle(index)).1;
+            let at = on_screen(at) + vec2(4.0, -4.0);
+            edged_text(&painter, at, Align2::LEFT_BOTTOM, &name, color);
         }
-    }
-    let lines = lines(&surface, state.overlays);
-    for line in &lines {
-        let behind = !line.is_outside && !see_through && state.fold.share >= CLOSED;
-        if behind {
-            continue;
-        }
-        let faint = if line.is_outside && see_through {
-            0.45
-        } else {
-            1.0
-        };
-        let points: Vec<Pos2> = line.at.iter().copied().map(on_screen).collect();
-        let (width, color) = pen(line.kind);
-        edged_line(&painter, points, width, color.gamma_multiply(faint));
-    }
-    for (index, at) in letters(&lines) {
-        let (at, name) = (
-            on_screen(at) + vec2(4.0, -4.0),
-            GREAT_CIRCLES[index].0.to_string(),
-        );
-        edged_text(
-            &painter,
-            at,
-            Align2::LEFT_BOTTOM,
-            &name,
-            pen(Kind::GreatCircle(index)).1,
-        );
     }
     if state.overlays.names {
         paint_names(&painter, &surface, on_screen);
@@ -136,9 +108,9 @@ pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let clicked = response
         .interact_pointer_pos()
         .filter(|_| response.clicked());
-    if let Some(pos) = clicked {
+    if let Some((pos, drawn)) = clicked.zip(drawn) {
         let place = (pos - rect.min) / rect.size();
-        let hit = surface.hit(&quads, [place.x, place.y], see_through);
+        let hit = surface.hit(&drawn.quads, [place.x, place.y], state.fold.see_through);
         if let Some(action) = hit.and_then(|point| probe_at(state.mapping, point)) {
             model.push(action);
             model.push(Action::FollowPointer(false));
@@ -146,6 +118,59 @@ pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
     }
     paint_legend(&painter, model, state.mapping, rect);
     turn(ui, model, &response);
+}
+
+/// The surface with its lines, as it is drawn until it is folded, turned or shown elsewhere.
+struct Drawn {
+    quads: Vec<Quad>,
+    shapes: Vec<Shape>,
+    /// Where the great circles have their letters.
+    letters: Vec<(usize, [f32; 2])>,
+}
+
+impl Drawn {
+    fn new(
+        surface: &Surface,
+        sheet: &Sheet,
+        fold: FoldState,
+        ground: Option<Ground>,
+        on_screen: impl Fn([f32; 2]) -> Pos2,
+    ) -> Self {
+        let quads = surface.quads_between(&sheet.corners);
+        let mut shapes = Vec::new();
+        if let Some(ground) = ground {
+            // The insides that are seen lie behind all outsides: on a closed surface, and on one that opens towards the eye.
+            for is_outside in [false, true] {
+                let tint = if is_outside && fold.see_through {
+                    Color32::from_white_alpha(70)
+                } else {
+                    Color32::WHITE
+                };
+                let own = quads.iter().filter(|quad| quad.is_outside == is_outside);
+                shapes.push(mesh(surface.map(), ground, own, tint, &on_screen));
+            }
+        }
+        let lines = project(surface, &sheet.lines);
+        for line in &lines {
+            let behind = !line.is_outside && !fold.see_through && fold.share >= CLOSED;
+            if behind {
+                continue;
+            }
+            let faint = if line.is_outside && fold.see_through {
+                0.45
+            } else {
+                1.0
+            };
+            let points: Vec<Pos2> = line.at.iter().copied().map(&on_screen).collect();
+            let (width, color) = pen(line.kind);
+            shapes.extend(edged(points, width, color.gamma_multiply(faint)));
+        }
+        Self {
+            quads,
+            shapes,
+            letters: letters(&lines),
+        }
+    }
 }
 
 /// Drags turn, the wheel zooms, a double click goes back.
@@ -169,7 +194,7 @@ fn turn(ui: &Ui, model: &mut Model<'_>, response: &egui::Response) {
 }
 
 /// What the surface shows.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Ground {
     /// The map's picture: its light, or a heat map.
     Picture(egui::TextureId),

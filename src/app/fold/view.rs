@@ -2,20 +2,37 @@
 
 use std::f64::consts::TAU;
 
-use crate::mapping::{ChartPoint, Coverage, Domain, MappingId, Unfolding};
+use crate::mapping::{ChartPoint, Coverage, Domain, Folded, MappingId, Unfolding, Way};
 use crate::math::Vec3;
-use crate::scene::Camera;
+use crate::scene::{Camera, Projection};
 
 /// A folded map before an eye, on a screen of some shape.
 pub struct Surface {
     map: MappingId,
     unfolding: Unfolding,
     share: f64,
+    folded: Folded,
     middle: Vec3<f64>,
     radius: f64,
-    camera: Camera,
     eye: glam::Vec3,
-    aspect: f32,
+    projection: Projection,
+}
+
+/// The corners of the pieces of a mapping's surface, on its charts; the same however it is folded and wherever it is seen from.
+pub struct Corners {
+    /// Pieces along a side of a chart.
+    steps: u32,
+    /// Row by row, chart by chart.
+    ways: Vec<Way>,
+}
+
+/// A point of a line on the map, and three beside it that tell from which side the surface is seen there.
+#[derive(Clone, Copy, Debug)]
+pub struct LinePoint {
+    at: Way,
+    beside: [Way; 3],
+    /// They lie backwards along either u or v.
+    is_turned: bool,
 }
 
 /// A piece of the surface.
@@ -37,6 +54,55 @@ pub const CLOSED: f32 = 0.45;
 /// Pieces of the surface: enough that it looks round.
 const PIECES: f64 = 4096.0;
 
+impl Corners {
+    /// Those of a mapping.
+    pub fn new(map: MappingId) -> Self {
+        let unfolding = Unfolding::new(map);
+        let info = map.info();
+        let steps = (PIECES / f64::from(info.chart_count())).sqrt().round() as u32;
+        let point = |chart: u32, i: u32, j: u32| {
+            let [s, t] = [i, j].map(|k| f64::from(k) / f64::from(steps));
+            match info.domain {
+                Domain::Square => ChartPoint::new(chart, s, t),
+                Domain::Disc => {
+                    // Outwards, then around: the same sense as u, then v.
+                    let (sin, cos) = (TAU * t).sin_cos();
+                    ChartPoint::new(chart, 0.5 + 0.5 * s * cos, 0.5 + 0.5 * s * sin)
+                }
+            }
+        };
+        let mut ways = Vec::new();
+        for chart in 0..info.chart_count() {
+            for j in 0..=steps {
+                ways.extend((0..=steps).map(|i| unfolding.way(point(chart, i, j))));
+            }
+        }
+        Self { steps, ways }
+    }
+}
+
+impl LinePoint {
+    /// That of a chart point.
+    pub fn new(unfolding: &Unfolding, point: ChartPoint<f64>) -> Self {
+        /// Steps towards the middle of the chart: at its border, where a pole may lie, a piece may have no sides.
+        const STEP: f64 = 1e-3;
+        let inward = |c: f64| if c > 0.5 { -STEP } else { STEP };
+        let [du, dv] = [inward(point.u), inward(point.v)];
+        let way = |u: f64, v: f64| unfolding.way(ChartPoint::new(point.chart, u, v));
+        Self {
+            at: way(point.u, point.v),
+            beside: [[1.0, 1.0], [2.0, 1.0], [1.0, 2.0]]
+                .map(|[i, j]| way(point.u + i * du, point.v + j * dv)),
+            is_turned: du * dv < 0.0,
+        }
+    }
+
+    /// The chart point.
+    pub fn point(&self) -> ChartPoint<f64> {
+        self.at.point
+    }
+}
+
 impl Surface {
     /// A mapping folded so far.
     pub fn new(map: MappingId, share: f32, camera: Camera, aspect: f32) -> Self {
@@ -45,13 +111,13 @@ impl Surface {
         let (middle, radius) = unfolding.ball(share);
         Self {
             map,
+            folded: unfolding.folded(share),
             unfolding,
             share,
             middle,
             radius,
             eye: camera.eye(),
-            camera,
-            aspect,
+            projection: camera.projection(aspect),
         }
     }
 
@@ -60,17 +126,27 @@ impl Surface {
         self.map
     }
 
-    fn place(&self, point: ChartPoint<f64>) -> glam::Vec3 {
-        let place = (self.unfolding.place(point, self.share) - self.middle) * (1.0 / self.radius);
+    fn place(&self, way: &Way) -> glam::Vec3 {
+        let place = (self.folded.place(way) - self.middle) * (1.0 / self.radius);
         let [x, y, z] = place.to_f64().map(|c| c as f32);
         glam::Vec3::new(x, y, z)
     }
 
+    fn on_screen(&self, way: &Way) -> Option<[f32; 2]> {
+        self.projection
+            .project(self.place(way))
+            .map(|(x, y)| [x, y])
+    }
+
+    fn corner(&self, way: &Way) -> Option<([f32; 2], f32)> {
+        let place = self.place(way);
+        let (x, y) = self.projection.project(place)?;
+        Some(([x, y], place.distance(self.eye)))
+    }
+
     /// Where a chart point is on the screen, in [0, 1]^2, v down, and how far from the eye.
     pub fn seen(&self, point: ChartPoint<f64>) -> Option<([f32; 2], f32)> {
-        let place = self.place(point);
-        let (x, y) = self.camera.project(place, self.aspect)?;
-        Some(([x, y], place.distance(self.eye)))
+        self.corner(&self.unfolding.way(point))
     }
 
     /// The outline of the sphere, closed, once it is one and the mapping holds all of it: places on the screen as those of [`Self::seen`].
@@ -90,68 +166,57 @@ impl Surface {
             .map(|k| {
                 let (sin, cos) = (std::f32::consts::TAU * k as f32 / STEPS as f32).sin_cos();
                 let place = middle + radius * (cos * right + sin * up);
-                self.camera.project(place, self.aspect).map(|(x, y)| [x, y])
+                self.projection.project(place).map(|(x, y)| [x, y])
             })
             .collect()
     }
 
     /// Whether the surface is seen from outside there; on the flat picture, from behind.
     pub fn is_outside(&self, point: ChartPoint<f64>) -> bool {
-        /// Steps towards the middle of the chart: at its border, where a pole may lie, a piece may have no sides.
-        const STEP: f64 = 1e-3;
-        let inward = |c: f64| if c > 0.5 { -STEP } else { STEP };
-        let [du, dv] = [inward(point.u), inward(point.v)];
-        let at = |u: f64, v: f64| {
-            self.seen(ChartPoint::new(point.chart, u, v))
-                .map(|seen| seen.0)
-        };
-        let (Some(o), Some(a), Some(b)) = (
-            at(point.u + du, point.v + dv),
-            at(point.u + 2.0 * du, point.v + dv),
-            at(point.u + du, point.v + 2.0 * dv),
-        ) else {
+        self.is_mirrored(&LinePoint::new(&self.unfolding, point))
+    }
+
+    fn is_mirrored(&self, point: &LinePoint) -> bool {
+        let [Some(o), Some(a), Some(b)] = point.beside.each_ref().map(|way| self.on_screen(way))
+        else {
             return false;
         };
         let turn = (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
-        (turn < 0.0) == (du * dv > 0.0)
+        (turn < 0.0) != point.is_turned
+    }
+
+    /// Where a line's point is on the screen, and whether the surface is seen from outside there.
+    pub fn side(&self, point: &LinePoint) -> Option<([f32; 2], bool)> {
+        let at = self.on_screen(&point.at)?;
+        Some((at, self.is_mirrored(point)))
     }
 
     /// The surface in pieces, the farthest first.
     pub fn quads(&self) -> Vec<Quad> {
-        let info = self.map.info();
-        let steps = (PIECES / f64::from(info.chart_count())).sqrt().round() as u32;
-        let mut quads = Vec::new();
-        for chart in 0..info.chart_count() {
-            let point = |i: u32, j: u32| {
-                let [s, t] = [i, j].map(|k| f64::from(k) / f64::from(steps));
-                match info.domain {
-                    Domain::Square => ChartPoint::new(chart, s, t),
-                    Domain::Disc => {
-                        // Outwards, then around: the same sense as u, then v.
-                        let (sin, cos) = (TAU * t).sin_cos();
-                        ChartPoint::new(chart, 0.5 + 0.5 * s * cos, 0.5 + 0.5 * s * sin)
-                    }
-                }
-            };
-            let row = |j: u32| -> Vec<_> {
-                (0..=steps)
-                    .map(|i| {
-                        let point = point(i, j);
-                        (point, self.seen(point))
-                    })
-                    .collect()
-            };
-            let mut above = row(0);
-            for j in 1..=steps {
-                let below = row(j);
-                for i in 0..steps as usize {
-                    let mut corners = [above[i], above[i + 1], below[i + 1], below[i]];
+        self.quads_between(&Corners::new(self.map))
+    }
+
+    /// The same between corners that are there already.
+    pub fn quads_between(&self, corners: &Corners) -> Vec<Quad> {
+        let side = corners.steps as usize + 1;
+        let seen: Vec<Corner> = corners
+            .ways
+            .iter()
+            .map(|way| (way.point, self.corner(way)))
+            .collect();
+        let mut quads = Vec::with_capacity(seen.len());
+        for chart in seen.chunks_exact(side * side) {
+            for (above, below) in chart
+                .chunks_exact(side)
+                .zip(chart.chunks_exact(side).skip(1))
+            {
+                for (above, below) in above.windows(2).zip(below.windows(2)) {
+                    let mut corners = [above[0], above[1], below[1], below[0]];
                     // Cut into triangles along the diamond, on which an octahedron is folded.
                     let is_falling = (corners[0].0.u < 0.5) == (corners[0].0.v < 0.5);
                     corners.rotate_left(usize::from(is_falling));
                     quads.extend(quad(corners));
                 }
-                above = below;
             }
         }
         quads.sort_by(|a, b| b.depth.total_cmp(&a.depth));
