@@ -234,7 +234,7 @@ pub(super) fn buttons_ui(
 fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) -> bool {
     ui.heading("Save a picture");
     ui.label(
-        "Drawn anew at the size you choose. A PNG holds the scene, so Sixfold can open it again. Panels, the folded map and the sampling of the horizon can also be written as lines: let the name end in .svg.",
+        "Drawn anew at the size you choose. A PNG holds the scene, so Sixfold can open it again. Panels, the folded map and the sampling of the horizon can also be written as lines alone, without light, heat maps and tints: let the name end in .svg.",
     );
     ui.horizontal(|ui| {
         let label = ui.label("of");

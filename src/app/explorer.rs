@@ -30,6 +30,7 @@ use super::pace::Paces;
 use super::panes;
 use super::picture;
 use super::reading::{Reading, Refusal};
+use super::sampling::CutsWanted;
 use super::state::AppState;
 use super::texel_color::{TexelColor, TexelKey};
 use super::views::{ViewKey, Views};
@@ -67,6 +68,7 @@ pub struct Explorer {
     heat_wanted: Vec<HeatWanted>,
     folds: bool,
     sheet_wanted: Option<SheetWanted>,
+    cuts_wanted: Option<CutsWanted>,
     ellipses_wanted: Vec<MappingId>,
     surroundings: Option<Surroundings>,
     loading: Option<Job<Result<Loading, Refusal>>>,
@@ -116,6 +118,7 @@ impl Explorer {
             heat_wanted: Vec::new(),
             folds: false,
             sheet_wanted: None,
+            cuts_wanted: None,
             ellipses_wanted: Vec::new(),
             surroundings: None,
             loading: None,
@@ -225,6 +228,7 @@ impl Explorer {
         self.light_fold(&ctx);
         self.trace_fold(&ctx);
         self.rank(&ctx);
+        self.cut_horizon(&ctx);
         self.measure_pace(&ctx);
         // What was just changed is seen in the next frame; a still window asks for none.
         let draws_on = (self.pending && !self.waits) || self.laid_out != laid_out;
@@ -262,6 +266,7 @@ impl Explorer {
         self.trace_fold(&ctx);
         self.compare_budget(&ctx);
         self.rank(&ctx);
+        self.cut_horizon(&ctx);
     }
 
     /// Runs `show` on a model of what there is; gives back what was asked for and what was laid out.
@@ -289,6 +294,7 @@ impl Explorer {
             heat_wanted: Vec::new(),
             folds: false,
             sheet_wanted: None,
+            cuts_wanted: None,
             ellipses_wanted: Vec::new(),
             seen: Vec::new(),
             microscope_px: None,
@@ -312,6 +318,7 @@ impl Explorer {
         self.budget_view = model.budget_view;
         (self.seen, self.errors_wanted) = (model.seen, model.errors_wanted);
         (self.heat_wanted, self.folds) = (model.heat_wanted, model.folds);
+        self.cuts_wanted = model.cuts_wanted;
         (self.sheet_wanted, self.ellipses_wanted) = (model.sheet_wanted, model.ellipses_wanted);
         (commands, laid_out)
     }

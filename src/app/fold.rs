@@ -12,7 +12,7 @@ use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 pub use lines::{Line, letters, lines, project, seen};
 pub use panel::{fold_ui, surface_ui};
 pub use sheet::{Sheet, SheetWanted};
-pub use view::{CLOSED, Quad, Surface};
+pub use view::{Quad, Surface, is_covered};
 
 use super::follower::Follower;
 use super::labs::Lab;
@@ -81,6 +81,12 @@ pub struct FoldLab {
 }
 
 impl FoldLab {
+    /// Lets go of the light of other surroundings, which would be kept in memory for nobody.
+    pub fn forget_others(&mut self, loaded: &Arc<Loaded>) {
+        let loaded = Shared::from(Arc::clone(loaded));
+        self.light.forget(|wanted| wanted.loaded != loaded);
+    }
+
     /// The light of a mapping's picture, when it is there.
     pub fn light_of(&self, mapping: MappingId) -> Option<egui::TextureId> {
         let (of, picture) = self.light.shown()?;

@@ -10,6 +10,7 @@ use super::laboratory::BenchLab;
 use super::loss::LossLab;
 use super::model::JobLine;
 use super::ranking::RankingLab;
+use super::sampling::SamplingLab;
 use super::stability::StabilityLab;
 
 /// What the window asks of every laboratory, whatever it measures.
@@ -45,10 +46,12 @@ pub struct Labs {
     pub budget: BudgetLab,
     /// How every mapping distorts.
     pub ranking: RankingLab,
+    /// Cuts through the horizon.
+    pub sampling: SamplingLab,
 }
 
 impl Labs {
-    fn all(&self) -> [&dyn Lab; 8] {
+    fn all(&self) -> [&dyn Lab; 9] {
         [
             &self.loss,
             &self.bench,
@@ -58,10 +61,11 @@ impl Labs {
             &self.fold,
             &self.budget,
             &self.ranking,
+            &self.sampling,
         ]
     }
 
-    fn all_mut(&mut self) -> [&mut dyn Lab; 8] {
+    fn all_mut(&mut self) -> [&mut dyn Lab; 9] {
         [
             &mut self.loss,
             &mut self.bench,
@@ -71,6 +75,7 @@ impl Labs {
             &mut self.fold,
             &mut self.budget,
             &mut self.ranking,
+            &mut self.sampling,
         ]
     }
 

@@ -1,16 +1,17 @@
-//! Views as lines on white paper, for papers and slides: the folded map, panels, the cut through the horizon.
+//! Views as lines on white paper, for papers and slides: the folded map, panels, the cut through the horizon. Light, heat maps and tints are no
+//! lines, and are left out; so is the probe, but for the cut.
 
 use egui::{Rect, pos2, vec2};
 
-use super::fold::{self, CLOSED, Surface, letters};
+use super::fold::{self, Surface, is_covered, letters};
 use super::map_lines::{Kind, MapLine, crosses, goes_on, map_lines};
 use super::map_panel::window_of;
 use super::panels::cells;
 use super::picture::{Destination, PictureRequest, What};
-use super::sampling;
+use super::sampling::{CutsWanted, sheet};
 use super::state::{AppState, Overlays};
 use crate::gpu::GREAT_CIRCLE_COLORS;
-use crate::imaging::{Environment, atomic::write_atomically};
+use crate::imaging::{Environment, Progress, atomic::write_atomically};
 use crate::lab::drawing::{Colour, Drawing};
 use crate::mapping::cube_face::GREAT_CIRCLES;
 use crate::mapping::{ChartPoint, Layout, MappingId};
@@ -71,14 +72,14 @@ pub fn written(state: &AppState, request: &PictureRequest) -> Option<Result<(), 
 pub fn drawing(state: &AppState, what: What, size: [u32; 2]) -> Option<Drawing> {
     let mut drawing = Drawing::new(size);
     let [width, height] = size.map(|n| n as f32);
-    let sheet = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
+    let paper = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
     let pen = Pen::of(size);
     match what {
-        What::Panel(mapping) => draw_panel(&mut drawing, state, mapping, sheet, pen),
+        What::Panel(mapping) => draw_panel(&mut drawing, state, mapping, paper, pen),
         What::Panels => {
             let open: Vec<MappingId> = state.open_panels().collect();
             let head = (2.0 * pen.letter) as f32;
-            for (mapping, mut cell) in open.iter().zip(cells(open.len(), sheet)) {
+            for (mapping, mut cell) in open.iter().zip(cells(open.len(), paper)) {
                 let title = [
                     f64::from(cell.left()) + 0.5 * pen.letter,
                     f64::from(cell.top()) + 0.5 * pen.letter,
@@ -88,8 +89,11 @@ pub fn drawing(state: &AppState, what: What, size: [u32; 2]) -> Option<Drawing> 
                 draw_panel(&mut drawing, state, *mapping, cell, pen);
             }
         }
-        What::Fold => draw_fold(&mut drawing, state, sheet, pen),
-        What::Sampling => drawing = sampling::sheet(state, size),
+        What::Fold => draw_fold(&mut drawing, state, paper, pen),
+        What::Sampling => {
+            let cuts = CutsWanted::new(state).make(&Progress::new());
+            drawing = sheet(state, &cuts.unwrap_or_default(), size);
+        }
         What::Window | What::Viewport | What::Microscope | What::Budget | What::Ranking => {
             return None;
         }
@@ -178,18 +182,25 @@ fn draw_fold(drawing: &mut Drawing, state: &AppState, sheet: Rect, pen: Pen) {
         ]
     };
     let seen = fold::seen(&surface, &lines_of(state, state.mapping));
-    let is_closed = fold.share >= CLOSED;
-    // What is seen from inside lies behind on a closed surface, and is its face on an open one.
-    for is_front in [false, true] {
-        for line in seen.iter().filter(|line| line.is_outside == is_front) {
-            let is_hidden = is_closed && !is_front;
-            if is_hidden && !fold.see_through {
-                continue;
+    // As on the screen: outsides lie over all that is seen from inside.
+    let quads = surface.quads();
+    let covered = |at: &[f32; 2]| is_covered(&quads, *at);
+    for line in seen.iter().filter(|line| !line.is_outside) {
+        let (width, ink) = pen.line(line.kind);
+        let hidden: Vec<bool> = line.at.iter().map(covered).collect();
+        let both: Vec<_> = line.at.iter().zip(hidden).collect();
+        for piece in both.chunk_by(|a, b| a.1 == b.1) {
+            let is_hidden = piece.first().is_some_and(|(_, hidden)| *hidden);
+            let points: Vec<_> = piece.iter().map(|(at, _)| place(at)).collect();
+            if !is_hidden || fold.see_through {
+                drawing.line(&points, width, if is_hidden { FAR } else { ink });
             }
-            let (width, ink) = pen.line(line.kind);
-            let points: Vec<_> = line.at.iter().map(place).collect();
-            drawing.line(&points, width, if is_hidden { FAR } else { ink });
         }
+    }
+    for line in seen.iter().filter(|line| line.is_outside) {
+        let (width, ink) = pen.line(line.kind);
+        let points: Vec<_> = line.at.iter().map(place).collect();
+        drawing.line(&points, width, ink);
     }
     if let Some(outline) = surface.outline() {
         let points: Vec<_> = outline.iter().map(place).collect();

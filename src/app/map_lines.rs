@@ -39,8 +39,11 @@ const STEPS: u32 = 48;
 
 /// Columns and rows into which the lines of equal u and v part a chart: where they are meridians and parallels, 15 degrees of longitude each.
 fn parts(map: MappingId) -> [u32; 2] {
-    let is_around = map.parallels().is_some() && map.info().chart_count() == 1;
-    if is_around { [24, 12] } else { [8, 8] }
+    if map.info().borders.is_around() {
+        [24, 12]
+    } else {
+        [8, 8]
+    }
 }
 
 /// The lines that are switched on, and the borders.
@@ -63,7 +66,9 @@ pub fn map_lines(map: MappingId, overlays: Overlays) -> Vec<MapLine> {
     }
     if overlays.great_circles {
         for (index, (_, normal)) in GREAT_CIRCLES.into_iter().enumerate() {
-            add(Kind::GreatCircle(index), great_circle(map, normal));
+            for piece in great_circle(map, normal) {
+                add(Kind::GreatCircle(index), piece);
+            }
         }
     }
     if overlays.ellipses {
@@ -85,11 +90,14 @@ pub fn map_lines(map: MappingId, overlays: Overlays) -> Vec<MapLine> {
 /// The outlines of the crosses at the vertices of icosahedron and dodecahedron.
 pub fn crosses(map: MappingId) -> Vec<MapLine> {
     let outlines = cross_outlines().into_iter();
-    let line = |(is_red, outline): (bool, Vec<Vec3<f64>>)| MapLine {
-        kind: Kind::Cross(is_red),
-        points: on_map(map, &outline),
+    let lines = |(is_red, outline): (bool, Vec<Vec3<f64>>)| {
+        let pieces = on_map(map, &outline).into_iter();
+        pieces.map(move |points| MapLine {
+            kind: Kind::Cross(is_red),
+            points,
+        })
     };
-    outlines.map(line).collect()
+    outlines.flat_map(lines).collect()
 }
 
 /// True where a line goes on from one point to the next: on one chart, without a jump from one of its borders to another.
@@ -144,7 +152,7 @@ fn border(map: MappingId, chart: u32) -> Vec<ChartPoint<f64>> {
         .collect()
 }
 
-fn great_circle(map: MappingId, normal: [i8; 3]) -> Vec<ChartPoint<f64>> {
+fn great_circle(map: MappingId, normal: [i8; 3]) -> Vec<Vec<ChartPoint<f64>>> {
     let normal = Vec3::<f64>::from_f64(normal.map(f64::from)).normalized();
     // The axis that the normal has nothing of lies on the circle.
     let on = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
@@ -164,32 +172,101 @@ fn great_circle(map: MappingId, normal: [i8; 3]) -> Vec<ChartPoint<f64>> {
     on_map(map, &dirs)
 }
 
-/// A line of the sphere on the map. Where it leaves a chart its points go up to the border.
-fn on_map(map: MappingId, dirs: &[Vec3<f64>]) -> Vec<ChartPoint<f64>> {
-    /// Halvings of a step: then the line's gap is less than a pixel in any picture.
+/// A line of the sphere on the map, in pieces that end at borders and where the map ends.
+fn on_map(map: MappingId, dirs: &[Vec3<f64>]) -> Vec<Vec<ChartPoint<f64>>> {
+    /// Halvings of a step: then what is missing is less than a pixel in any picture.
     const HALVINGS: u32 = 16;
-    let mut points: Vec<ChartPoint<f64>> = Vec::new();
+    let joins = |from: Option<ChartPoint<f64>>, to: Option<ChartPoint<f64>>| match (from, to) {
+        (Some(from), Some(to)) => goes_on(from, to),
+        (from, to) => from.is_none() && to.is_none(),
+    };
+    let mut pieces = vec![Vec::new()];
     for pair in dirs.windows(2) {
-        let [Some(from), Some(to)] = [pair[0], pair[1]].map(|dir| map.own_point(dir)) else {
-            continue;
-        };
-        if points.last() != Some(&from) {
-            points.push(from);
-        }
-        if !goes_on(from, to) {
+        let [from, to] = [pair[0], pair[1]].map(|dir| map.own_point(dir));
+        let (mut last, mut next) = (from, to);
+        if !joins(from, to) {
             let (mut low, mut high) = (pair[0], pair[1]);
-            let (mut last, mut next) = (from, to);
             for _ in 0..HALVINGS {
                 let middle = (low + high).normalized();
-                match map.own_point(middle) {
-                    Some(point) if goes_on(last, point) => (low, last) = (middle, point),
-                    Some(point) => (high, next) = (middle, point),
-                    None => break,
+                let point = map.own_point(middle);
+                if joins(last, point) {
+                    (low, last) = (middle, point);
+                } else {
+                    (high, next) = (middle, point);
                 }
             }
-            points.extend([last, next]);
         }
-        points.push(to);
+        if let Some(piece) = pieces.last_mut() {
+            piece.extend(from.filter(|from| piece.last() != Some(from)));
+            piece.extend(last.filter(|last| piece.last() != Some(last)));
+        }
+        if !joins(from, to) {
+            pieces.push(next.into_iter().collect());
+        }
     }
-    points
+    let end = dirs.last().and_then(|dir| map.own_point(*dir));
+    pieces
+        .last_mut()
+        .into_iter()
+        .for_each(|piece| piece.extend(end));
+    pieces.retain(|piece| piece.len() > 1);
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_of_the_sphere_ends_at_borders_and_where_the_map_ends() {
+        let around: Vec<_> = (0..=360)
+            .map(|k| {
+                let (sin, cos) = (TAU * (f64::from(k) + 0.5) / 360.0).sin_cos();
+                Vec3::new(sin * 0.6, sin * 0.8, cos)
+            })
+            .collect();
+        let mut ends = 0;
+        for &map in MappingId::ALL {
+            let pieces = on_map(map, &around);
+            let is_whole = pieces
+                .iter()
+                .all(|p| p.windows(2).all(|w| goes_on(w[0], w[1])));
+            assert!(is_whole, "{map}");
+            // All of the line that the map holds is there.
+            let count: usize = pieces.iter().map(Vec::len).sum();
+            let own = around
+                .iter()
+                .filter(|dir| map.own_point(**dir).is_some())
+                .count();
+            assert!(count >= own, "{map}: {count} of {own}");
+            // An end that is none of the line's own lies where the next step leads elsewhere: at a border or at the end of the map.
+            for end in pieces
+                .iter()
+                .flat_map(|piece| [piece.first(), piece.last()])
+                .flatten()
+            {
+                let info = map.info();
+                let from_side = [end.u, end.v]
+                    .map(|c| c.min(1.0 - c))
+                    .into_iter()
+                    .fold(1.0, f64::min);
+                let from_rim = 0.5 - (end.u - 0.5).hypot(end.v - 0.5);
+                let off = match info.domain {
+                    Domain::Square => from_side,
+                    Domain::Disc => from_rim,
+                };
+                let is_own_end = [around.first(), around.last()]
+                    .into_iter()
+                    .flatten()
+                    .any(|dir| {
+                        map.own_point(*dir).is_some_and(|p| {
+                            goes_on(p, *end) && (p.u - end.u).hypot(p.v - end.v) < 1e-9
+                        })
+                    });
+                assert!(off < 2e-4 || is_own_end, "{map}: {off} {end:?}");
+                ends += usize::from(!is_own_end);
+            }
+        }
+        assert!(ends > 100, "control: {ends}");
+    }
 }

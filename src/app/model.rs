@@ -17,6 +17,7 @@ use super::laboratory::{Used, Wanted};
 use super::labs::Labs;
 use super::pace::Paces;
 use super::reading::Reading;
+use super::sampling::CutsWanted;
 use super::state::{AppState, FormState, Overlays};
 use super::story::StoryStep;
 use super::views::{ViewKey, Views};
@@ -90,6 +91,8 @@ pub struct Model<'a> {
     pub folds: bool,
     /// The pieces and the lines of the folded map that is seen.
     pub sheet_wanted: Option<SheetWanted>,
+    /// Cuts through the horizon that are seen.
+    pub cuts_wanted: Option<CutsWanted>,
     /// The mappings over which Tissot's ellipses are seen.
     pub ellipses_wanted: Vec<MappingId>,
     /// The panes that are drawn: what only a hidden one would show is not computed.

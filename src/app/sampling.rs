@@ -1,39 +1,68 @@
 //! The pane with the cut through the horizon: how evenly two mappings part it into texels.
 
-use egui::cache::{ComputerMut, FrameCache};
-use egui::{Align2, Color32, FontId, Pos2, Sense, Slider, Ui, vec2};
+use egui::{Align2, Color32, Context, FontId, Pos2, Sense, Slider, Ui, vec2};
 
 use super::action::Action;
+use super::follower::Follower;
+use super::labs::Lab;
 use super::lists::grouped_list_ui;
-use super::model::Model;
+use super::model::{JobLine, Model};
 use super::state::{AppState, SamplingState};
 use super::theme;
+use crate::imaging::Progress;
 use crate::lab::drawing::{Colour, Drawing, Shape};
 use crate::lab::sampling::{QUARTERS, Sampling, drawing};
 use crate::mapping::MappingId;
 
-/// The selected mapping and the other one on a sheet of `size` pixels.
-pub fn sheet(state: &AppState, size: [u32; 2]) -> Drawing {
-    sheet_of(state, size, Sampling::new)
+/// Which mappings are cut, and how fine they are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutsWanted {
+    maps: Vec<MappingId>,
+    quarter: u32,
 }
 
-fn sheet_of(state: &AppState, size: [u32; 2], cut: impl Fn(MappingId, u32) -> Sampling) -> Drawing {
-    let SamplingState { other, quarter, .. } = state.sampling;
-    let mut maps = vec![state.mapping, other];
-    maps.dedup();
-    let cuts: Vec<Sampling> = maps.into_iter().map(|map| cut(map, quarter)).collect();
-    let probe = state.overlays.probe.then(|| state.probe_f64());
-    drawing(&cuts, probe, size)
-}
-
-/// Keeps the cuts from frame to frame.
-#[derive(Default)]
-struct Cuts;
-
-impl ComputerMut<(MappingId, u32), Sampling> for Cuts {
-    fn compute(&mut self, (map, quarter): (MappingId, u32)) -> Sampling {
-        Sampling::new(map, quarter)
+impl CutsWanted {
+    /// The selected mapping, and the other one where it is another.
+    pub fn new(state: &AppState) -> Self {
+        let SamplingState { other, quarter, .. } = state.sampling;
+        let mut maps = vec![state.mapping, other];
+        maps.dedup();
+        Self { maps, quarter }
     }
+
+    /// Cuts them; nothing when cancelled.
+    pub fn make(&self, progress: &Progress) -> Option<Vec<Sampling>> {
+        let cut =
+            |map: &MappingId| (!progress.is_cancelled()).then(|| Sampling::new(*map, self.quarter));
+        self.maps.iter().map(cut).collect()
+    }
+}
+
+/// The cuts that were made last.
+#[derive(Default)]
+pub struct SamplingLab {
+    /// Made while the pane is seen.
+    pub cuts: Follower<CutsWanted, Vec<Sampling>>,
+}
+
+impl Lab for SamplingLab {
+    fn poll(&mut self, _: &Context) {
+        self.cuts.poll();
+    }
+
+    fn jobs(&self) -> Vec<JobLine> {
+        self.cuts.job().into_iter().collect()
+    }
+
+    fn cancel(&mut self, id: u64) {
+        self.cuts.cancel(id);
+    }
+}
+
+/// The cuts on a sheet of `size` pixels.
+pub fn sheet(state: &AppState, cuts: &[Sampling], size: [u32; 2]) -> Drawing {
+    let probe = state.overlays.probe.then(|| state.probe_f64());
+    drawing(cuts, probe, size)
 }
 
 /// Shows the pane in all the space there is.
@@ -71,14 +100,11 @@ pub fn sheet_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let painter = ui.painter_at(rect);
     theme::paint_ground(&painter, rect);
     let size = [rect.width() as u32, rect.height() as u32];
-    let kept = |map: MappingId, quarter: u32| {
-        ui.memory_mut(|memory| {
-            let cuts = memory.caches.cache::<FrameCache<Sampling, Cuts>>();
-            cuts.get((map, quarter)).clone()
-        })
-    };
-    for shape in sheet_of(model.state, size, kept).shapes() {
-        paint(&painter, rect.min, shape);
+    model.cuts_wanted = Some(CutsWanted::new(model.state));
+    if let Some((_, cuts)) = model.labs.sampling.cuts.shown() {
+        for shape in sheet(model.state, cuts, size).shapes() {
+            paint(&painter, rect.min, shape);
+        }
     }
 }
 

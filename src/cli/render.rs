@@ -13,7 +13,7 @@ use crate::scene::Object;
 /// Options of `sixfold render`. What is `None` stays as the scene has it.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 pub struct RenderOptions {
-    /// The picture to write; panels, the folded map and the sampling also as lines, in .svg
+    /// The picture to write; panels, the folded map and the sampling also as lines alone (no light, heat map or tint), in .svg
     #[arg(value_name = "OUT.png|OUT.svg", value_parser = picture_path)]
     pub out: PathBuf,
     /// A saved scene to draw; else the scene that the explorer opens with

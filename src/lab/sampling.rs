@@ -10,6 +10,9 @@ use crate::math::Vec3;
 /// Texels on a quarter of the horizon that can be asked for.
 pub const QUARTERS: (u32, u32) = (2, 24);
 
+/// Borders as near as this are one, in radians: far below a texel.
+const CORNER_RAD: f64 = 1e-6;
+
 /// The texels of one map around the horizon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sampling {
@@ -27,22 +30,50 @@ pub fn on_horizon(angle_rad: f64) -> Vec3<f64> {
 }
 
 impl Sampling {
-    /// A map as fine as a cube map with `quarter` texels on a side, by the texels that it has around the horizon.
+    /// A map of that fineness at which its texels on the horizon are most nearly as many as those of a cube map with `quarter` texels on a side, in
+    /// proportion to what it holds of the horizon.
     pub fn new(map: MappingId, quarter: u32) -> Self {
         let quarter = quarter.clamp(QUARTERS.0, QUARTERS.1);
         let rows = equal_rows(map, MappingId::Cube, [quarter; 2]);
+        let mut best = Self::of_rows(map, rows);
+        let held_rad: f64 = best.texels_rad().map(|[from, to]| to - from).sum();
+        let wanted = f64::from(4 * quarter) * held_rad / TAU;
+        let off = |cut: &Self| (cut.texels_rad().count() as f64 - wanted).abs();
+        // Texels that lie askew are crossed near their corners too: their number does not simply rise with that of the rows.
+        let mut others: Vec<u32> = (rows.div_ceil(2)..=2 * rows).collect();
+        others.sort_by_key(|other| other.abs_diff(rows));
+        for other in others {
+            if off(&best) < 0.5 {
+                break;
+            }
+            let cut = Self::of_rows(map, other);
+            if off(&cut) < off(&best) {
+                best = cut;
+            }
+        }
+        best
+    }
+
+    fn of_rows(map: MappingId, rows: u32) -> Self {
+        /// Of a texel: nearer to a border is on it. Far above what rounding moves a place, so that a horizon on a border is on one side of it.
+        const NEAR: f64 = 1e-12;
         let size = chart_size(map, rows).map(f64::from);
         let texel = |angle_rad: f64| {
             let point = map.own_point(on_horizon(angle_rad))?;
-            let index = |c: f64, count: f64| (c * count) as u32;
+            let index = |c: f64, count: f64| {
+                let place = c * count;
+                let border = place.round();
+                let is_on = (place - border).abs() < NEAR;
+                (if is_on { border } else { place }) as u32
+            };
             Some((
                 point.chart,
                 index(point.u, size[0]),
                 index(point.v, size[1]),
             ))
         };
-        /// Steps around: no texel is that small.
-        const STEPS: u32 = 2048;
+        /// Steps around: a twentieth of a texel of the finest cube map. What is passed in less than a step is not told from its neighbour.
+        const STEPS: u32 = 20 * 4 * QUARTERS.1;
         /// Off the round angles, at which texels end.
         const OFFSET: f64 = 0.37;
         let angle = |step: u32| TAU * (f64::from(step) + OFFSET) / f64::from(STEPS);
@@ -65,6 +96,8 @@ impl Sampling {
             borders_rad.push(high.rem_euclid(TAU));
         }
         borders_rad.sort_by(f64::total_cmp);
+        // Where texels meet at a corner, u and v pass a border at once.
+        borders_rad.dedup_by(|b, a| *b - *a < CORNER_RAD);
         let is_own = spans(&borders_rad)
             .map(|[from, to]| texel(0.5 * (from + to)).is_some())
             .collect();
@@ -285,28 +318,37 @@ mod tests {
 
     #[test]
     fn the_texels_of_every_map_cover_what_it_holds_of_the_horizon_once() {
+        const STEPS: u32 = 10_000;
         for &map in MappingId::ALL {
-            let cut = Sampling::new(map, 8);
-            let whole: f64 = cut.texels_rad().map(|[from, to]| to - from).sum();
-            const STEPS: u32 = 100_000;
             let own = (0..STEPS)
                 .filter(|k| {
                     let angle = TAU * (f64::from(*k) + 0.5) / f64::from(STEPS);
                     map.own_point(on_horizon(angle)).is_some()
                 })
                 .count();
-            let own = TAU * own as f64 / f64::from(STEPS);
-            // Each of at most two ends of what it holds lies between two of the angles asked.
-            assert!(
-                (whole - own).abs() < 2.0 * TAU / f64::from(STEPS),
-                "{map}: {whole} of {own}"
-            );
-            let spans: Vec<_> = cut.texels_rad().collect();
-            assert!(
-                spans.windows(2).all(|pair| pair[0][1] <= pair[1][0]),
-                "{map}"
-            );
-            assert!(spans.len() >= 8, "{map}: {}", spans.len());
+            let share = own as f64 / f64::from(STEPS);
+            for quarter in QUARTERS.0..=QUARTERS.1 {
+                let cut = Sampling::new(map, quarter);
+                let spans: Vec<_> = cut.texels_rad().collect();
+                let whole: f64 = spans.iter().map(|[from, to]| to - from).sum();
+                // Each of at most two ends of what it holds lies between two of the angles asked.
+                let off = (whole - TAU * share).abs();
+                assert!(
+                    off < 2.0 * TAU / f64::from(STEPS),
+                    "{map} {quarter}: {whole}"
+                );
+                let is_rising = spans.windows(2).all(|pair| pair[0][1] <= pair[1][0]);
+                assert!(is_rising, "{map} {quarter}");
+                // As many as were asked for, as far as whole rows can have them; none that rounding has made.
+                let wanted = 4.0 * f64::from(quarter) * share;
+                let count = spans.len() as f64;
+                assert!(
+                    (count - wanted).abs() <= 4.0,
+                    "{map} {quarter}: {count} of {wanted}"
+                );
+                let [least, most] = cut.extremes_rad().unwrap();
+                assert!(most / least < 30.0, "{map} {quarter}: {least} {most}");
+            }
         }
     }
 

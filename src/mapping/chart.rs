@@ -405,6 +405,11 @@ pub enum Borders {
 }
 
 impl Borders {
+    /// True of a picture of meridians and parallels, whose left and right side are one meridian.
+    pub fn is_around(self) -> bool {
+        matches!(self, Self::DateLineAndPoles | Self::DateLine)
+    }
+
     /// What lies across a side of a chart, where each side of a chart is one of another.
     pub fn across(self, chart: u32, side: Side) -> Option<Neighbour> {
         match self {

@@ -51,7 +51,7 @@ impl Unfolding {
         } else if info.borders == Borders::FoldedSides {
             Some(Solid::Octahedron)
         } else {
-            map.parallels().map(|_| Solid::Cylinder)
+            info.borders.is_around().then_some(Solid::Cylinder)
         };
         // The chart in the middle: the cube's +z, and one on the equator.
         let chart = match info.layout {

@@ -14,6 +14,7 @@ use crate::app::laboratory;
 use crate::app::labs::Labs;
 use crate::app::loss::Wanted;
 use crate::app::object::Jobs;
+use crate::app::sampling::CutsWanted;
 use crate::app::state::AppState;
 use crate::lab::files::{BENCH, LabError, prepare, write_bench};
 
@@ -119,6 +120,9 @@ impl Explorer {
     pub(super) fn light_fold(&mut self, ctx: &Context) {
         let seen = self.surroundings.as_ref().filter(|_| self.folds);
         let wanted = seen.map(|shown| LightWanted::new(&self.state, &shown.loaded));
+        if let (None, Some(shown)) = (&wanted, &self.surroundings) {
+            self.labs.fold.forget_others(&shown.loaded);
+        }
         if self.complete {
             let light = &mut self.labs.fold.light;
             light.complete(wanted, |wanted, progress| wanted.make(ctx, progress));
@@ -155,6 +159,19 @@ impl Explorer {
             return;
         }
         self.start(ctx, |labs, _, jobs| labs.ellipses.follow(wanted, jobs));
+    }
+
+    /// Cuts the mappings at the horizon that are seen so.
+    pub(super) fn cut_horizon(&mut self, ctx: &Context) {
+        let wanted = self.cuts_wanted.take();
+        if self.complete {
+            self.labs.sampling.cuts.complete(wanted, CutsWanted::make);
+            return;
+        }
+        self.start(ctx, |labs, _, jobs| {
+            let cuts = &mut labs.sampling.cuts;
+            cuts.follow(wanted, "texels of the horizon", jobs, CutsWanted::make)
+        });
     }
 
     /// Measures how every mapping distorts while the ranking is seen.

@@ -5,7 +5,7 @@ use egui::{Align2, Color32, Pos2, RichText, Sense, Shape, Slider, Ui, pos2, vec2
 
 use super::lines::{letters, project};
 use super::sheet::{Sheet, SheetWanted};
-use super::view::{CLOSED, Quad, Surface};
+use super::view::{Quad, Surface, is_covered};
 use crate::app::action::{Action, probe_at};
 use crate::app::distortion::{HeatWanted, Seen, paint_legend};
 use crate::app::kept::kept;
@@ -96,14 +96,24 @@ pub fn surface_ui(ui: &mut Ui, model: &mut Model<'_>) {
             edged_text(&painter, at, Align2::LEFT_BOTTOM, &name, color);
         }
     }
+    // What lies behind an outside that lets nothing through.
+    let is_hidden = |point: ChartPoint<f64>, at: [f32; 2]| {
+        let quads = drawn.as_ref().map_or(&[][..], |drawn| &drawn.quads);
+        !state.fold.see_through && !surface.is_outside(point) && is_covered(quads, at)
+    };
     if state.overlays.names {
-        paint_names(&painter, &surface, on_screen);
+        paint_names(&painter, &surface, is_hidden, on_screen);
     }
     if state.overlays.probe
         && let Some(point) = state.mapping.forward(state.probe_f64())
         && let Some((at, _)) = surface.seen(point)
     {
-        cross_mark(&painter, on_screen(at), theme::PROBE);
+        let color = if is_hidden(point, at) {
+            Color32::GRAY
+        } else {
+            theme::PROBE
+        };
+        cross_mark(&painter, on_screen(at), color);
     }
     let clicked = response
         .interact_pointer_pos()
@@ -137,11 +147,13 @@ impl Drawn {
         on_screen: impl Fn([f32; 2]) -> Pos2,
     ) -> Self {
         let quads = surface.quads_between(&sheet.corners);
+        let lines = project(surface, &sheet.lines);
         let mut shapes = Vec::new();
-        if let Some(ground) = ground {
-            // The insides that are seen lie behind all outsides: on a closed surface, and on one that opens towards the eye.
-            for is_outside in [false, true] {
-                let tint = if is_outside && fold.see_through {
+        // The insides that are seen lie behind all outsides: on a closed surface, and on one that opens towards the eye.
+        for is_outside in [false, true] {
+            let lets_through = is_outside && fold.see_through;
+            if let Some(ground) = ground {
+                let tint = if lets_through {
                     Color32::from_white_alpha(70)
                 } else {
                     Color32::WHITE
@@ -149,21 +161,12 @@ impl Drawn {
                 let own = quads.iter().filter(|quad| quad.is_outside == is_outside);
                 shapes.push(mesh(surface.map(), ground, own, tint, &on_screen));
             }
-        }
-        let lines = project(surface, &sheet.lines);
-        for line in &lines {
-            let behind = !line.is_outside && !fold.see_through && fold.share >= CLOSED;
-            if behind {
-                continue;
+            let strength = if lets_through { 0.45 } else { 1.0 };
+            for line in lines.iter().filter(|line| line.is_outside == is_outside) {
+                let points: Vec<Pos2> = line.at.iter().copied().map(&on_screen).collect();
+                let (width, color) = pen(line.kind);
+                shapes.extend(edged(points, width, color.gamma_multiply(strength)));
             }
-            let faint = if line.is_outside && fold.see_through {
-                0.45
-            } else {
-                1.0
-            };
-            let points: Vec<Pos2> = line.at.iter().copied().map(&on_screen).collect();
-            let (width, color) = pen(line.kind);
-            shapes.extend(edged(points, width, color.gamma_multiply(faint)));
         }
         Self {
             quads,
@@ -285,16 +288,22 @@ fn pen(kind: Kind) -> (f32, Color32) {
     }
 }
 
-/// The name of each chart in its middle, where it is seen from inside.
-fn paint_names(painter: &egui::Painter, surface: &Surface, on_screen: impl Fn([f32; 2]) -> Pos2) {
+/// The name of each chart in its middle, where that is seen; darker where it is seen from outside.
+fn paint_names(
+    painter: &egui::Painter,
+    surface: &Surface,
+    is_hidden: impl Fn(ChartPoint<f64>, [f32; 2]) -> bool,
+    on_screen: impl Fn([f32; 2]) -> Pos2,
+) {
     let charts = surface.map().info().charts;
     if charts.len() < 2 {
         return;
     }
     for (chart, name) in charts.iter().enumerate() {
         let middle = ChartPoint::new(chart as u32, 0.5, 0.5);
-        let is_outside = surface.is_outside(middle);
-        if let Some((at, _)) = surface.seen(middle) {
+        let seen = surface.seen(middle).map(|(at, _)| at);
+        if let Some(at) = seen.filter(|at| !is_hidden(middle, *at)) {
+            let is_outside = surface.is_outside(middle);
             let color = Color32::from_gray(if is_outside { 150 } else { 235 });
             edged_text(painter, on_screen(at), Align2::CENTER_CENTER, name, color);
         }

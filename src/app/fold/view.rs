@@ -48,9 +48,6 @@ pub struct Quad {
     pub is_outside: bool,
 }
 
-/// From this share on the outside hides the inside: a little before the solid is closed.
-pub const CLOSED: f32 = 0.45;
-
 /// Pieces of the surface: enough that it looks round.
 const PIECES: f64 = 4096.0;
 
@@ -238,6 +235,20 @@ impl Surface {
             .find_map(found);
         first.or_else(|| nearest().find_map(found))
     }
+}
+
+/// True where one of the pieces that are seen from outside lies: they are drawn over all that is seen from inside.
+pub fn is_covered(quads: &[Quad], place: [f32; 2]) -> bool {
+    let outsides = quads.iter().filter(|quad| quad.is_outside);
+    outsides.into_iter().any(|quad| {
+        let is_near = [0, 1].into_iter().all(|i: usize| {
+            let along = quad.at.map(|at| at[i]);
+            let low = along.into_iter().fold(f32::INFINITY, f32::min);
+            let high = along.into_iter().fold(f32::NEG_INFINITY, f32::max);
+            (low..=high).contains(&place[i])
+        });
+        is_near && inside(quad, place).is_some()
+    })
 }
 
 type Corner = (ChartPoint<f64>, Option<([f32; 2], f32)>);
