@@ -10,14 +10,16 @@ mod window_kit;
 
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
+use sixfold::app::action::Action;
 use sixfold::app::arrangement::Pane;
 use sixfold::app::command::Command;
-use sixfold::app::figures::Figure;
+use sixfold::app::dialogs::{Dialog, PictureDialog};
+use sixfold::app::figures::{Figure, Paper};
 use sixfold::app::picture::What;
 use sixfold::app::state::{AppState, SamplingState};
 use sixfold::imaging::Environment;
 use sixfold::mapping::MappingId;
-use window_kit::{Ui, middle_end, open, open_sized, rests, run, settle, small};
+use window_kit::{Ui, middle_end, open, open_sized, panel_rect, rests, run, settle, small};
 
 const SHEET: &str = "Cut through the horizon, seen from above";
 
@@ -96,5 +98,57 @@ fn every_figure_is_shown_with_its_surroundings_and_can_be_taken_back() {
         assert_eq!(state(&ui).environment, before.environment, "{name}");
         assert_eq!(state(&ui).maximised, before.maximised, "{name}");
         assert_eq!(state(&ui).mapping, before.mapping, "{name}");
+    }
+}
+
+#[test]
+fn the_panes_lie_again_as_before_a_figure_that_moves_them() {
+    let mut ui = open(small());
+    let latlong = |ui: &Ui| panel_rect(ui, MappingId::Latlong);
+    let before = latlong(&ui);
+    run(&mut ui, Command::ShowFigure(Figure::Paper(Paper::Cross)));
+    settle(&mut ui);
+    assert!(ui.query_by_label("Panel: Latlong").is_none(), "control");
+    run(&mut ui, Command::Undo);
+    settle(&mut ui);
+    assert!((latlong(&ui).min - before.min).length() < 1.0);
+    assert!((latlong(&ui).size() - before.size()).length() < 1.0);
+}
+
+#[test]
+fn a_pane_that_is_opened_is_seen_though_another_one_was_alone() {
+    let mut ui = open(small());
+    run(&mut ui, Action::SetPaneOpen(Pane::Story, true));
+    run(&mut ui, Action::SetMaximised(Some(Pane::Story)));
+    run(&mut ui, Action::SetPaneOpen(Pane::Sampling, true));
+    settle(&mut ui);
+    ui.get_by_label(SHEET);
+    run(&mut ui, Action::SetPaneOpen(Pane::Sampling, false));
+    settle(&mut ui);
+    assert_eq!(state(&ui).maximised, None, "what was alone is shut");
+}
+
+#[test]
+fn a_list_lies_over_its_dialog_however_often_that_is_shown() {
+    let mut ui = open(small());
+    for what in [What::Viewport, What::Fold, What::Panels] {
+        let dialog = Dialog::Picture(PictureDialog::default());
+        run(&mut ui, Command::ShowDialog(dialog));
+        settle(&mut ui);
+        ui.get_by_role_and_label(Role::ComboBox, "picture of")
+            .click();
+        settle(&mut ui);
+        let entry = what.name();
+        // Within one order what was pressed last would be on top.
+        let order = |at: egui::Rect| ui.ctx.layer_id_at(at.center()).unwrap().order;
+        let dialog = ui.get_by_label("with overlays").rect();
+        let list = ui.get_by_role_and_label(Role::Button, &entry).rect();
+        assert!(order(list) > order(dialog), "{entry}");
+        ui.get_by_role_and_label(Role::Button, &entry).click();
+        settle(&mut ui);
+        let list = ui.get_by_role_and_label(Role::ComboBox, "picture of");
+        assert_eq!(list.value(), Some(entry));
+        ui.get_by_label("Cancel").click();
+        settle(&mut ui);
     }
 }

@@ -294,11 +294,13 @@ fn set_open(state: &mut AppState, pane: Pane, open: bool) {
     if pane == Pane::Story && open && !state.story.open {
         state.probe_follows = false;
     }
+    let was_open = state.is_open(pane);
     if let Some(is_open) = state.open_mut(pane) {
         *is_open = open;
     }
-    // What was shown alone may be hidden now.
-    state.show_alone(state.maximised);
+    // What was shown alone may be hidden now, and what was just opened would lie behind it.
+    let opens = open && !was_open && state.maximised.is_some();
+    state.show_alone(if opens { Some(pane) } else { state.maximised });
 }
 
 /// The curve of the material's formula is among those that are drawn.

@@ -105,7 +105,7 @@ fn rows(
         (
             "off by (RMS)",
             "Root of the mean square difference from the environment itself, in linear light, over the object's pixels: \
-             what is bright weighs most",
+             what is bright weighs most. In a larger picture the pixels are finer, and the number is another one",
             rms_texts(shown),
         ),
         (

@@ -112,7 +112,10 @@ impl Default for PictureDialog {
 pub fn dialog_ui(ctx: &egui::Context, model: &mut Model<'_>, dialog: &mut Option<Dialog>) {
     let Some(open) = dialog else { return };
     let mut close = false;
-    let response = Modal::new(egui::Id::unique("dialog")).show(ctx, |ui| {
+    // Below the order of lists and menus, which open over the dialog however often it is shown.
+    let id = egui::Id::unique("dialog");
+    let area = Modal::default_area(id).order(egui::Order::Middle);
+    let response = Modal::new(id).area(area).show(ctx, |ui| {
         ui.set_width(match open {
             Dialog::Reading(_) => reading_width(ui),
             _ => 430.0,
@@ -237,7 +240,7 @@ fn picture_ui(ui: &mut Ui, model: &mut Model<'_>, fields: &mut PictureDialog) ->
         "Drawn anew at the size you choose. A PNG holds the scene, so Sixfold can open it again. Panels, the folded map and the sampling of the horizon can also be written as lines alone, without light, heat maps and tints: let the name end in .svg.",
     );
     ui.horizontal(|ui| {
-        let label = ui.label("of");
+        let label = ui.label("picture of");
         ComboBox::from_id_salt("picture of")
             .selected_text(fields.what.name())
             .height(lists::HEIGHT)

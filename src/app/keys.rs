@@ -82,7 +82,8 @@ pub fn commands(
     if pressed(Key::R) {
         commands.push(Action::ResetCamera.into());
     }
-    if pressed(Key::Escape) {
+    // A menu that is open takes it.
+    if !egui::Popup::is_any_open(ctx) && pressed(Key::Escape) {
         if state.maximised.is_some() {
             commands.push(Action::SetMaximised(None).into());
         }

@@ -158,9 +158,9 @@ fn draw_panel(drawing: &mut Drawing, state: &AppState, mapping: MappingId, cell:
     if state.overlays.names && layout != Layout::Single {
         for (chart, name) in mapping.info().charts.iter().enumerate() {
             // At the top in the middle: near corners crosses lie.
-            let top = place(ChartPoint::new(chart as u32, 0.46, 0.02));
+            let top = place(ChartPoint::new(chart as u32, 0.5, 0.02));
             if let Some(at) = top.filter(|[x, y]| cell.contains(pos2(*x as f32, *y as f32))) {
-                drawing.words(name, at, pen.letter, INK);
+                drawing.words_below(name, at, pen.letter, INK);
             }
         }
     }

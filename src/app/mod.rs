@@ -13,7 +13,7 @@ mod budget_panel;
 pub mod command;
 mod controls;
 mod curves;
-mod dialogs;
+pub mod dialogs;
 pub mod distortion;
 pub mod ellipses;
 pub mod explorer;

@@ -359,7 +359,7 @@ impl AppState {
     }
 
     /// Whether a pane is shown, to be changed; `None` for the viewport, which always is.
-    pub(super) fn open_mut(&mut self, pane: Pane) -> Option<&mut bool> {
+    pub fn open_mut(&mut self, pane: Pane) -> Option<&mut bool> {
         match pane {
             Pane::Viewport => None,
             Pane::Curves => Some(&mut self.curves_open),

@@ -10,7 +10,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// There is a file already.
-    #[error("the file exists already; choose another name or allow replacing it: {}", .0.display())]
+    #[error("the file exists already; choose another name or allow replacing it (--force): {}", .0.display())]
     Exists(PathBuf),
     /// The path names no file.
     #[error("this names no file; give a file name: {}", .0.display())]

@@ -91,6 +91,14 @@ impl Drawing {
         });
     }
 
+    /// The same with the middle of the words' upper edge at `at`, as nearly as their width is known: fonts differ.
+    pub fn words_below(&mut self, text: &str, at: [f64; 2], size: f64, colour: Colour) {
+        /// Advance of a letter over the letters' height, of the strokes; fonts have less, on the average.
+        const ADVANCE: f64 = 0.8;
+        let width = ADVANCE * size * text.chars().count() as f64;
+        self.words(text, [at[0] - 0.5 * width, at[1]], size, colour);
+    }
+
     /// The drawing as an SVG file; words stay words.
     pub fn svg(&self) -> String {
         let [width, height] = self.size;

@@ -274,9 +274,15 @@ fn draw_cut(
         drawing.disc(solid(*border), 3.0 * pen, INK);
     }
     drawing.disc(middle, 3.0 * pen, INK);
+    // Which way is which, inside the circle.
+    for (name, angle) in [("+z", 0.0), ("+x", 0.5 * PI)] {
+        let [x, y] = at(angle, 0.86);
+        drawing.words_below(name, [x, y - 0.5 * letter], letter, INK);
+    }
     if let Some(dir) = probe.filter(|dir| dir.x != 0.0 || dir.z != 0.0) {
         let angle = dir.x.atan2(dir.z);
         drawing.line(&[middle, at(angle, PROBE_REACH)], 3.0 * pen, PROBE);
+        drawing.words("probe", [left, corner[1] + 4.9 * letter], letter, PROBE);
     }
 }
 

@@ -94,7 +94,11 @@ impl Explorer {
     /// Another state altogether: its surroundings may have to be loaded.
     pub(super) fn replace(&mut self, ctx: &Context, state: AppState) {
         let environment = state.environment.clone();
+        let is_arranged_otherwise = state.arrangement != self.state.arrangement;
         self.state = state;
+        if is_arranged_otherwise {
+            self.tree = panes::tree_of(&self.state);
+        }
         // What moved when the state was left does not move anew.
         self.state.fold.towards = None;
         self.follow_state();

@@ -7,6 +7,7 @@ use egui::Context;
 
 use super::Explorer;
 use crate::app::action::Action;
+use crate::app::arrangement::Arrangement;
 use crate::app::dialogs::{Dialog, ball_from};
 use crate::app::export::Export;
 use crate::app::files::{self, Opened};
@@ -424,7 +425,11 @@ impl Explorer {
 
     /// Shows another scene, which can be taken back.
     pub(super) fn show_scene(&mut self, ctx: &Context, scene: AppState) {
-        let before = self.state.clone();
+        // With the panes as they lie, so that undo puts them back.
+        let before = AppState {
+            arrangement: Arrangement::of_tree(&self.tree),
+            ..self.state.clone()
+        };
         self.replace(ctx, scene.clone().sanitized());
         self.history.record(before, &Action::Load(Box::new(scene)));
         self.tree = panes::tree_of(&self.state);

@@ -195,6 +195,12 @@ fn one_cross(state: &mut AppState) {
             panel.zoom = ZOOM;
         }
     }
+    // Only what is compared, with room.
+    for pane in Pane::READ {
+        if let Some(is_open) = state.open_mut(pane) {
+            *is_open = false;
+        }
+    }
     let part = |share, content| Share { share, content };
     let both = BOTH.map(|mapping| part(1.0, Arrangement::Pane(Pane::Map(mapping))));
     state.arrangement = Some(Arrangement::Column(vec![

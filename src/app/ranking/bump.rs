@@ -28,7 +28,9 @@ pub fn bump_ui(ui: &mut Ui, model: &mut Model<'_>, entries: &[Entry<'_>], size: 
     let measured: Vec<&Metrics> = entries.iter().filter_map(|entry| entry.metrics).collect();
     let shown = bounded(&measured, basis);
     if shown.is_empty() {
-        ui.label("nothing is measured yet");
+        if !entries.is_empty() {
+            ui.label("nothing is measured yet");
+        }
         return;
     }
     let top = ui.cursor().top();

@@ -14,7 +14,7 @@ use crate::app::model::Model;
 use crate::app::state::{Claim, MOST_COMPARED, RankingPlot, RankingState};
 use crate::app::theme;
 use crate::lab::metrics::Metrics;
-use crate::lab::ranking::{Basis, winners};
+use crate::lab::ranking::{Basis, order, winners};
 use crate::mapping::{Family, MappingId};
 
 /// Below this width the pane scrolls sideways.
@@ -111,12 +111,13 @@ fn kinds_ui(ui: &mut Ui, model: &mut Model<'_>) {
 /// Which mapping is best, and from which weight on another.
 fn winners_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>]) {
     let measured: Vec<&Metrics> = entries.iter().filter_map(|entry| entry.metrics).collect();
-    let winners = winners(&measured, model.state.ranking.basis);
+    let basis = model.state.ranking.basis;
+    let winners = winners(&measured, basis);
     let mut text = String::new();
     for (k, (weight, map)) in winners.iter().enumerate() {
         let name = map.info().name;
         text += &match k {
-            0 => format!("Best for area: {name}"),
+            0 => format!("Best for area: {name}{}", ties(&measured, basis)),
             _ => format!("; from {weight:.2} on {name}"),
         };
     }
@@ -125,6 +126,15 @@ fn winners_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>]) {
     }
     if !text.is_empty() {
         ui.add(Label::new(RichText::new(text).strong()).wrap());
+    }
+}
+
+/// How many are as good for area alone; the first of them is the one that `order` has first.
+fn ties(measured: &[&Metrics], basis: Basis) -> String {
+    let first = order(measured, basis, 0.0);
+    match first.iter().filter(|placed| placed.place == 1).count() {
+        0 | 1 => String::new(),
+        many => format!(" (of {many} as good the best with both weighed alike)"),
     }
 }
 

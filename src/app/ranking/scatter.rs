@@ -44,7 +44,9 @@ pub fn scatter_ui(ui: &mut Ui, model: &mut Model<'_>, entries: &[Entry<'_>], siz
     set(model, ranking);
     let [Some(across), Some(up)] = chosen.map(|criterion| Axis::over(criterion, entries)) else {
         let has_no_cost = chosen.contains(&Criterion::Cost);
-        ui.label(if has_no_cost {
+        ui.label(if entries.is_empty() {
+            ""
+        } else if has_no_cost {
             NO_COST
         } else {
             "nothing is measured yet"

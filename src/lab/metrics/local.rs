@@ -122,7 +122,7 @@ impl Quantity {
             Self::Area => "× the mean",
             Self::Shape => "",
             Self::Linear => "× the ideal square's side",
-            Self::Density => "/deg²",
+            Self::Density => "",
         }
     }
 
