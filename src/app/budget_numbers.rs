@@ -52,11 +52,14 @@ pub fn numbers_ui(ui: &mut Ui, model: &Model<'_>, pointed: Option<Vec3<f64>>) {
         }
         ui.end_row();
     };
-    let grid = |column: usize| Grid::new(("equal texel budget", column)).spacing([12.0, 2.0]);
+    const GAP: f32 = 12.0;
+    let grid = |column: usize| Grid::new(("equal texel budget", column)).spacing([GAP, 2.0]);
     if width < NARROW {
         for (column, name) in names.iter().enumerate() {
             ui.label(sized(name.clone()).strong());
-            grid(column).show(ui, |ui| {
+            // Long numbers wrap.
+            let grid = grid(column).max_col_width(0.5 * (width - GAP));
+            grid.show(ui, |ui| {
                 rows.iter().for_each(|row| row_ui(ui, row, &[column]))
             });
         }
