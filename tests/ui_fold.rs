@@ -8,6 +8,7 @@
 
 mod window_kit;
 
+use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 use sixfold::app::action::{Action, apply};
 use sixfold::app::arrangement::Pane;
@@ -16,7 +17,10 @@ use sixfold::app::fold::Surface;
 use sixfold::app::state::{AppState, FoldState};
 use sixfold::mapping::{ChartPoint, MappingId};
 use sixfold::math::angle_rad;
-use window_kit::{Ui, WINDOW_SIZES, open, open_sized, probe, rests, run, settle, small};
+use window_kit::{
+    TILED_SIZES, Ui, WINDOW_SIZES, assert_within, long_names, open, open_sized, probe, rests, run,
+    settle, small, tile, tiled,
+};
 
 fn folded(mapping: MappingId, share: f32) -> AppState {
     AppState {
@@ -156,5 +160,24 @@ fn nothing_fails_at_any_size_with_any_mapping_or_number() {
     for &mapping in MappingId::ALL {
         run(&mut ui, Action::SetMapping(mapping));
         assert!(has_light(&ui, mapping), "{mapping}");
+    }
+}
+
+#[test]
+fn slider_and_picture_lie_within_the_tile() {
+    let mut ui = open(tiled(Pane::Fold));
+    for (width, height) in TILED_SIZES {
+        ui.set_size(egui::vec2(width, height));
+        for mapping in long_names() {
+            run(&mut ui, Action::SetMapping(mapping));
+            assert_within(&ui, Pane::Fold, &[Role::Slider, Role::Image], |_| false);
+            let (tile, picture) = (tile(&ui, Pane::Fold), ui.get_by_label("Folded map").rect());
+            assert!(tile.contains_rect(picture), "{mapping}: {picture:?}");
+            // All of the tile's width, and its middle; the margin is 6 wide.
+            assert!(
+                picture.width() > tile.width() - 16.0 && picture.height() > 200.0,
+                "{mapping}: {picture:?} in {tile:?}"
+            );
+        }
     }
 }

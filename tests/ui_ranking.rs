@@ -11,6 +11,7 @@ mod window_kit;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
 use sixfold::app::action::{Action, apply};
 use sixfold::app::arrangement::Pane;
@@ -26,8 +27,8 @@ use sixfold::imaging::Progress;
 use sixfold::lab::ranking::Criterion;
 use sixfold::mapping::{Family, MappingId};
 use window_kit::{
-    Ui, WINDOW_SIZES, click_at, measured_with, middle_end, open, open_sized, rests, run, settle,
-    small, texts,
+    TILED_SIZES, Ui, WINDOW_SIZES, assert_within, click_at, measured_with, middle_end, open,
+    open_sized, rests, run, settle, small, texts, tile, tiled,
 };
 
 /// The pane alone, with all the width there is.
@@ -409,6 +410,51 @@ fn a_picture_of_it_holds_the_numbers() {
 }
 
 #[test]
+fn nothing_leaves_the_tile_but_the_tables_columns() {
+    let mut scene = tiled(Pane::Ranking);
+    let mut ids = MappingId::ALL.to_vec();
+    ids.sort_by_key(|map| std::cmp::Reverse(map.info().id.len()));
+    scene.ranking.compared = ids[..MOST_COMPARED].to_vec();
+    let mut ui = open(scene);
+    // The table scrolls sideways by itself.
+    let is_cell = |text: &str| {
+        let of_map = |map: &MappingId| {
+            let rest = text.strip_prefix(map.info().id);
+            rest.is_some_and(|rest| rest.starts_with(", "))
+        };
+        text.starts_with("Sort by ") || MappingId::ALL.iter().any(of_map)
+    };
+    for (width, height) in TILED_SIZES {
+        ui.set_size(egui::vec2(width, height));
+        for plot in RankingPlot::ALL {
+            change(&mut ui, |ranking| ranking.plot = plot);
+            let kinds = [Role::Slider, Role::ComboBox, Role::SpinButton, Role::Button];
+            assert_within(&ui, Pane::Ranking, &kinds, is_cell);
+        }
+        // Each number of the comparison is a thing of its own, and none covers another.
+        change(&mut ui, |ranking| ranking.plot = RankingPlot::Compare);
+        let tile = tile(&ui, Pane::Ranking);
+        let whats = Criterion::ALL.map(Criterion::name).into_iter();
+        let mut places: Vec<egui::Rect> = Vec::new();
+        for what in whats.chain(["its error"]) {
+            for map in &ids[..MOST_COMPARED] {
+                let start = format!("{} by {what}: ", map.info().id);
+                let rect = ui.get_by_label_contains(&start).rect();
+                assert!(
+                    rect.left() > tile.left() && rect.right() < tile.right(),
+                    "{start}{rect:?} in {tile:?}"
+                );
+                let covered = places
+                    .iter()
+                    .find(|other| other.intersects(rect.shrink(1.0)));
+                assert_eq!(covered, None, "{start}{rect:?}");
+                places.push(rect);
+            }
+        }
+    }
+}
+
+#[test]
 fn nothing_is_clipped_or_fails_when_tiny() {
     let mut scene = alone(RankingState::default());
     (scene.controls_open, scene.inspector.open) = (true, true);
@@ -419,6 +465,7 @@ fn nothing_is_clipped_or_fails_when_tiny() {
             change(&mut ui, |ranking| ranking.plot = plot);
             for pane in [None, Some(Pane::Ranking)] {
                 run(&mut ui, Action::SetMaximised(pane));
+                // What is seen of it as a tile has a test of its own.
                 if width < 800.0 || pane.is_none() {
                     continue;
                 }

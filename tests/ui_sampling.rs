@@ -19,7 +19,10 @@ use sixfold::app::picture::What;
 use sixfold::app::state::{AppState, SamplingState};
 use sixfold::imaging::Environment;
 use sixfold::mapping::MappingId;
-use window_kit::{Ui, middle_end, open, open_sized, panel_rect, rests, run, settle, small};
+use window_kit::{
+    TILED_SIZES, Ui, assert_within, long_names, open, panel_rect, rests, run, settle, small, tile,
+    tiled,
+};
 
 const SHEET: &str = "Cut through the horizon, seen from above";
 
@@ -60,13 +63,40 @@ fn the_menu_opens_the_pane_and_a_list_chooses_what_it_compares() {
 }
 
 #[test]
-fn it_fits_into_large_and_small_windows() {
-    for (width, height) in [(1280.0, 800.0), (800.0, 600.0)] {
-        let ui = open_sized(sampled(MappingId::Healpix), width, height);
-        let sheet = ui.get_by_label(SHEET).rect();
-        assert!(sheet.width() > 200.0 && sheet.height() > 200.0, "{sheet:?}");
-        assert!(sheet.right() <= middle_end(&ui, width) + 1.0, "{sheet:?}");
-        assert!(sheet.bottom() <= height, "{sheet:?}");
+fn it_fits_into_large_and_small_windows_alone_and_as_a_tile() {
+    let maps = long_names();
+    let mut scene = tiled(Pane::Sampling);
+    scene.sampling.other = maps[0];
+    let mut ui = open(scene);
+    for (width, height) in TILED_SIZES {
+        ui.set_size(egui::vec2(width, height));
+        for &mapping in &maps {
+            run(&mut ui, Action::SetMapping(mapping));
+            for other in [maps[0], maps[1]] {
+                let sampling = SamplingState {
+                    other,
+                    ..state(&ui).sampling
+                };
+                run(&mut ui, Action::SetSampling(sampling));
+                run(&mut ui, Action::SetMaximised(None));
+                let kinds = [Role::Slider, Role::ComboBox, Role::SpinButton, Role::Image];
+                assert_within(&ui, Pane::Sampling, &kinds, |_| false);
+                let tile = tile(&ui, Pane::Sampling);
+                let sheet = ui.get_by_label(SHEET).rect();
+                assert!(tile.contains_rect(sheet), "{mapping}: {sheet:?}");
+                assert!(sheet.height() > 200.0, "{sheet:?}");
+                run(&mut ui, Action::SetMaximised(Some(Pane::Sampling)));
+                for role in kinds {
+                    let all: Vec<_> = ui.query_all_by_role(role).collect();
+                    assert!(!all.is_empty(), "{role:?}");
+                    let right = all.iter().map(|node| node.rect().right());
+                    assert!(right.fold(0.0, f32::max) <= width, "{role:?} in {width}");
+                }
+                let sheet = ui.get_by_label(SHEET).rect();
+                assert!(sheet.width() > 200.0 && sheet.height() > 200.0, "{sheet:?}");
+                assert!(sheet.right() <= width && sheet.bottom() <= height);
+            }
+        }
     }
 }
 

@@ -1,10 +1,11 @@
 //! The numbers of the equal texel budget: both maps as wholes, and how their texels lie in one direction.
 
-use egui::{Grid, RichText, Ui};
+use egui::{Grid, RichText, TextStyle, Ui};
 
 use super::budget::{Shown, compared};
 use super::budget_panel::NAMES;
 use super::model::Model;
+use super::narrow::text_width;
 use super::numbers::significant;
 use crate::lab::equal_budget::MapSize;
 use crate::lab::texel_density::TexelDensity;
@@ -52,16 +53,30 @@ pub fn numbers_ui(ui: &mut Ui, model: &Model<'_>, pointed: Option<Vec3<f64>>) {
         }
         ui.end_row();
     };
-    let grid = |column: usize| Grid::new(("equal texel budget", column)).spacing([12.0, 2.0]);
+    const GAP: f32 = 12.0;
+    let grid = |column: usize| Grid::new(("equal texel budget", column)).spacing([GAP, 2.0]);
     if width < NARROW {
         for (column, name) in names.iter().enumerate() {
             ui.label(sized(name.clone()).strong());
-            grid(column).show(ui, |ui| {
+            // Long numbers wrap.
+            let grid = grid(column).max_col_width(0.5 * (width - GAP));
+            grid.show(ui, |ui| {
                 rows.iter().for_each(|row| row_ui(ui, row, &[column]))
             });
         }
     } else {
-        grid(0).show(ui, |ui| {
+        // Long names wrap; the words before the rows do not.
+        let style = if width < BODY_TEXT {
+            TextStyle::Small
+        } else {
+            TextStyle::Body
+        };
+        let words = rows
+            .iter()
+            .map(|(name, ..)| text_width(ui, name, style.clone()));
+        let words = words.fold(0.0, f32::max);
+        let grid = grid(0).max_col_width((0.5 * (width - words) - GAP).max(words));
+        grid.show(ui, |ui| {
             ui.label("");
             for name in names {
                 ui.label(sized(name).strong());

@@ -9,6 +9,7 @@ use super::budget_numbers::{NARROW, numbers_height, numbers_ui};
 use super::lists::{grouped_list_ui, list_ui};
 use super::marks::{edged_line, edged_text};
 use super::model::Model;
+use super::narrow::slider_ui;
 use super::state::{AppState, BudgetState, COMPARED_TEXELS, EyeRay, MAGNIFIERS, Overlays};
 use super::theme;
 use super::viewport::{aspect, view_pointer};
@@ -74,13 +75,11 @@ fn choices_ui(ui: &mut Ui, model: &mut Model<'_>) {
     }
     let width = ui.available_width();
     let texels_ui = |ui: &mut Ui, texels: &mut u32| {
-        /// Room for the words before the slider and the number behind it.
-        const WORDS: f32 = 116.0;
         let label = ui.label("texels");
-        ui.spacing_mut().slider_width = (width - WORDS).clamp(30.0, 110.0);
         let slider = Slider::new(texels, COMPARED_TEXELS.0..=COMPARED_TEXELS.1);
-        ui.add(slider.logarithmic(true))
-            .labelled_by(label.id)
+        let most = COMPARED_TEXELS.1.to_string();
+        ui.spacing_mut().slider_width = 110.0;
+        slider_ui(ui, slider.logarithmic(true), label.id, &most)
             .on_hover_text("Of each of the two maps: it gets the size nearest to this number");
     };
     let seen_ui = |ui: &mut Ui, magnifier: &mut u32, shows_surroundings: &mut bool| {

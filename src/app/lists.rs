@@ -1,13 +1,14 @@
 //! Lists to choose from, in panes that may be narrow. Mappings stand in them under the headings of their families.
 
-use egui::{Align, ComboBox, RichText, ScrollArea, Ui};
+use egui::{Align, ComboBox, RichText, ScrollArea, TextStyle, Ui};
 
+use super::narrow::{next_line_unless, text_width};
 use crate::mapping::{Family, MappingId};
 
 /// Height of a list that is open, in points: more is scrolled.
 pub const HEIGHT: f32 = 420.0;
 
-/// A list to choose from, with its name before it.
+/// A list to choose from, with its name before it, on one line; a choice that is longer wraps.
 pub fn list_ui<T: PartialEq + Clone>(
     ui: &mut Ui,
     label: &str,
@@ -29,14 +30,25 @@ pub fn grouped_list_ui<T: PartialEq + Clone>(
 ) {
     /// Width of a short name; longer ones take more where there is room.
     const WIDTH: f32 = 90.0;
-    let text = ui.label(label);
-    ComboBox::from_id_salt(("list", label))
-        .width(WIDTH.min(ui.available_width()))
-        .height(HEIGHT)
-        .selected_text(name(now))
-        .show_ui(ui, |ui| entries_ui(ui, now, options, name, family))
-        .response
-        .labelled_by(text.id);
+    let chosen = name(now);
+    let spacing = ui.spacing();
+    let around = 2.0 * spacing.button_padding.x + spacing.icon_spacing + spacing.icon_width;
+    let gap = spacing.item_spacing.x;
+    let button = (text_width(ui, &chosen, TextStyle::Button) + around).max(WIDTH);
+    let whole = text_width(ui, label, TextStyle::Body) + gap + button;
+    next_line_unless(ui, whole);
+    // In a layout that does not wrap the list stays with its name.
+    ui.horizontal(|ui| {
+        let text = ui.label(label);
+        ComboBox::from_id_salt(("list", label))
+            .width(WIDTH.min(ui.available_width()))
+            .wrap()
+            .height(HEIGHT)
+            .selected_text(&chosen)
+            .show_ui(ui, |ui| entries_ui(ui, now, options, name, family))
+            .response
+            .labelled_by(text.id)
+    });
 }
 
 /// The entries of an open list: first those of no family, then each family's under its heading. When the list opens, what is chosen is in

@@ -41,6 +41,7 @@ mod marks;
 mod material_panel;
 mod microscope;
 pub mod model;
+mod narrow;
 mod numbers;
 mod object;
 mod objects;

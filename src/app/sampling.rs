@@ -7,6 +7,7 @@ use super::follower::Follower;
 use super::labs::Lab;
 use super::lists::grouped_list_ui;
 use super::model::{JobLine, Model};
+use super::narrow::{picture_pane, slider_ui};
 use super::state::{AppState, SamplingState};
 use super::theme;
 use crate::imaging::Progress;
@@ -67,10 +68,7 @@ pub fn sheet(state: &AppState, cuts: &[Sampling], size: [u32; 2]) -> Drawing {
 
 /// Shows the pane in all the space there is.
 pub fn sampling_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    theme::pane_frame(ui).show(ui, |ui| {
-        controls_ui(ui, model);
-        sheet_ui(ui, model);
-    });
+    picture_pane(ui, model, controls_ui, sheet_ui);
 }
 
 fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
@@ -83,7 +81,7 @@ fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
         grouped_list_ui(ui, "beside", &mut sampling.other, all, title, family);
         let label = ui.label("texels a quarter turn");
         let slider = Slider::new(&mut sampling.quarter, QUARTERS.0..=QUARTERS.1);
-        ui.add(slider).labelled_by(label.id);
+        slider_ui(ui, slider, label.id, "00");
     });
     if sampling != model.state.sampling {
         model.push(Action::SetSampling(sampling));

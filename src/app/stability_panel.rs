@@ -5,6 +5,7 @@ use egui::{Align, ComboBox, DragValue, Label, Layout, RichText, ScrollArea, Slid
 use super::action::Action;
 use super::microscope::{degrees_text, microscope_ui};
 use super::model::Model;
+use super::narrow::slider_ui;
 use super::stability_table::{TABLE_WIDTH, table_ui};
 use super::state::{LENGTHS, StabilityState};
 use super::theme;
@@ -137,9 +138,6 @@ fn evaluator_ui(ui: &mut Ui, model: &Model<'_>, stability: &mut StabilityState) 
 
 fn zoom_ui(ui: &mut Ui, stability: &mut StabilityState) {
     let label = ui.label("across");
-    /// Room for the number beside the slider.
-    const NUMBER: f32 = 80.0;
-    ui.spacing_mut().slider_width = (ui.available_width() - NUMBER).clamp(40.0, 240.0);
     // To the right is nearer.
     let [low, high] = SPAN_DEG;
     let slider = Slider::new(&mut stability.span_deg, high..=low)
@@ -147,7 +145,8 @@ fn zoom_ui(ui: &mut Ui, stability: &mut StabilityState) {
         .smallest_positive(low)
         .custom_formatter(|deg, _| degrees_text(deg))
         .custom_parser(|text| text.trim().trim_end_matches('°').trim().parse().ok());
-    ui.add(slider).labelled_by(label.id).on_hover_text(
+    ui.spacing_mut().slider_width = 240.0;
+    slider_ui(ui, slider, label.id, "0.000020°").on_hover_text(
         "The angle across the picture's smaller side; the wheel zooms, a drag pans. f32 has a step every 0.0000034°",
     );
 }

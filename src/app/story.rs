@@ -15,6 +15,7 @@ pub use steps::{
 
 use super::action::Action;
 use super::model::Model;
+use super::narrow::slider_ui;
 use super::state::{AppState, StoryKind, StoryState};
 use super::theme;
 use crate::scene::Target;
@@ -101,15 +102,9 @@ fn walk_ui(ui: &mut Ui, model: &mut Model<'_>, index: usize) {
         }
         let label = ui.label(format!("step {} of {count}", index + 1));
         let mut step = index + 1;
-        // What is left of this row, not the width of a row; a row of its own where that is too little.
-        let mut left = ui.available_size_before_wrap().x;
-        if left < 70.0 {
-            ui.end_row();
-            left = ui.available_width();
-        }
-        ui.spacing_mut().slider_width = (left - 8.0).clamp(10.0, 240.0);
         let slider = Slider::new(&mut step, 1..=count).show_value(false);
-        if ui.add(slider).labelled_by(label.id).changed() {
+        ui.spacing_mut().slider_width = 240.0;
+        if slider_ui(ui, slider, label.id, "").changed() {
             model.push(Action::SetStory(StoryState {
                 step: step.saturating_sub(1),
                 ..story

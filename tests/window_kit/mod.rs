@@ -8,8 +8,11 @@
 
 use std::time::{Duration, Instant};
 
+use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::{Harness, HarnessBuilder};
+use sixfold::app::action::{Action, apply};
+use sixfold::app::arrangement::Pane;
 use sixfold::app::command::Command;
 use sixfold::app::laboratory::Measured;
 use sixfold::app::state::AppState;
@@ -34,6 +37,9 @@ pub const WINDOW_SIZES: [(f32, f32); 5] = [
     (1.0, 1.0),
     (800.0, 600.0),
 ];
+
+/// Widths and heights of windows in which each tile is readable.
+pub const TILED_SIZES: [(f32, f32); 2] = [(1280.0, 800.0), (800.0, 600.0)];
 
 /// A window of 1280 x 800 on a software adapter; no adapter is a failure.
 pub fn open(state: AppState) -> Ui {
@@ -159,6 +165,93 @@ pub fn texts(ui: &Ui) -> Vec<String> {
 pub fn middle_end(ui: &Ui, width: f32) -> f32 {
     let inspector = ui.query_by_label("follows the pointer");
     inspector.map_or(width, |node| node.rect().left())
+}
+
+/// The mappings with the longest names, and the one that is selected at first.
+pub fn long_names() -> Vec<MappingId> {
+    let mut maps = MappingId::ALL.to_vec();
+    maps.sort_by_key(|map| std::cmp::Reverse(map.info().name.chars().count()));
+    maps.truncate(3);
+    maps.push(AppState::default().mapping);
+    maps
+}
+
+/// A tile of a pane that is read, beside the others: it has the right column, and the inspector is shut.
+pub fn tiled(pane: Pane) -> AppState {
+    let mut state = small();
+    apply(&mut state, Action::SetPaneOpen(pane, true));
+    state.inspector.open = false;
+    state
+}
+
+/// The rectangle on the screen that the tile of such a pane has below its tab.
+pub fn tile(ui: &Ui, pane: Pane) -> egui::Rect {
+    /// Height of the status bar.
+    const STATUS: f32 = 24.0;
+    let button = |pane: Pane| {
+        let label = format!("Maximise {}", pane.name());
+        ui.get_by_label(&label).rect()
+    };
+    let own = button(pane);
+    let bottom = ui.ctx.content_rect().bottom() - STATUS;
+    egui::Rect::from_min_max(
+        egui::pos2(button(Pane::Viewport).right(), own.bottom()),
+        egui::pos2(own.right(), bottom),
+    )
+}
+
+/// What can be read or used in that tile: what it is, its text, its rectangle. What `scrolls` sideways by itself is left out.
+fn things(
+    ui: &Ui,
+    tile: egui::Rect,
+    scrolls: impl Fn(&str) -> bool,
+) -> Vec<(Role, String, egui::Rect)> {
+    const KINDS: [Role; 7] = [
+        Role::Button,
+        Role::CheckBox,
+        Role::ComboBox,
+        Role::Image,
+        Role::Label,
+        Role::Slider,
+        Role::SpinButton,
+    ];
+    let all = ui.query_all_by(|node| KINDS.contains(&node.role()));
+    let of = |node: egui_kittest::Node<'_>| {
+        let rect = node.rect();
+        let node = node.accesskit_node();
+        let text = node.label().or(node.value()).unwrap_or_default();
+        (node.role(), text, rect)
+    };
+    // What was pushed out of the window at the right still begins right of the tile's left side.
+    let is_own = |rect: &egui::Rect| {
+        rect.left() > tile.left() && tile.y_range().contains(rect.top()) && rect.is_positive()
+    };
+    all.map(of)
+        .filter(|(_, text, rect)| is_own(rect) && !scrolls(text))
+        .collect()
+}
+
+/// Asserts that the tile of a pane shows things of these kinds and that none of its things leaves it at the right.
+pub fn assert_within(ui: &Ui, pane: Pane, kinds: &[Role], scrolls: impl Fn(&str) -> bool) {
+    let tile = tile(ui, pane);
+    let things = things(ui, tile, scrolls);
+    for kind in kinds {
+        assert!(
+            things.iter().any(|thing| thing.0 == *kind),
+            "no {kind:?} in {pane:?}"
+        );
+    }
+    let spilled = |right: f32| -> Vec<_> {
+        let beyond = |thing: &&(Role, String, egui::Rect)| thing.2.right() > right + 0.5;
+        things.iter().filter(beyond).collect()
+    };
+    assert!(
+        spilled(tile.right()).is_empty(),
+        "{pane:?} in {tile:?}: {:?}",
+        spilled(tile.right())
+    );
+    // Control: in a tile of half the width something would be cut.
+    assert!(!spilled(tile.center().x).is_empty(), "{things:?}");
 }
 
 /// The rectangle on the screen of a panel's picture.

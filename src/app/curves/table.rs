@@ -12,6 +12,8 @@ use crate::optics::material::Material;
 
 /// Below this width the table's numbers are told with a place less.
 const NARROW_TABLE: f32 = 310.0;
+/// Below this width they stand below their formula.
+const NARROW_LIST: f32 = 250.0;
 
 /// Each formula with its value at the angle of incidence and its largest error.
 pub(super) fn table_ui(
@@ -20,6 +22,12 @@ pub(super) fn table_ui(
     rows: &[Row],
     incidence_rad: Option<f64>,
 ) {
+    if ui.available_width() < NARROW_LIST {
+        for row in rows {
+            listed_ui(ui, model, row, incidence_rad);
+        }
+        return;
+    }
     let is_narrow = ui.available_width() < NARROW_TABLE;
     egui::ScrollArea::horizontal().show(ui, |ui| {
         Grid::new("formulas")
@@ -54,6 +62,24 @@ pub(super) fn table_ui(
     });
 }
 
+/// A formula, and below it its value and its largest error in words.
+fn listed_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, incidence_rad: Option<f64>) {
+    name_ui(ui, model, row, true);
+    let Some([value, error, angle]) = numbers(ui.ctx(), row, incidence_rad, true) else {
+        return;
+    };
+    let at = incidence_rad.map_or(String::new(), |angle| {
+        format!(" at {:.0}°", angle.to_degrees())
+    });
+    let error = if angle.is_empty() {
+        error
+    } else {
+        format!("largest error {error} at {angle}")
+    };
+    let text = RichText::new(format!("{value}{at}, {error}")).small();
+    ui.add(egui::Label::new(text).wrap());
+}
+
 fn row_ui(
     ui: &mut Ui,
     model: &mut Model<'_>,
@@ -61,8 +87,43 @@ fn row_ui(
     incidence_rad: Option<f64>,
     is_narrow: bool,
 ) {
+    name_ui(ui, model, row, is_narrow);
+    for text in numbers(ui.ctx(), row, incidence_rad, is_narrow)
+        .into_iter()
+        .flatten()
+    {
+        ui.label(RichText::new(text).monospace().size(11.0));
+    }
+}
+
+/// The value at the angle of incidence, the largest error and its angle where the curve is drawn; the exact one has no error.
+fn numbers(
+    ctx: &egui::Context,
+    row: &Row,
+    incidence_rad: Option<f64>,
+    is_narrow: bool,
+) -> Option<[String; 3]> {
+    if !row.shown {
+        return None;
+    }
     // Places of a reflectance, and of an angle in degrees.
     let (places, angle_places) = if is_narrow { (3, 0) } else { (4, 1) };
+    let value = incidence_rad.map(|angle| format!("{:.places$}", row.law.reflectance(angle)));
+    let value = value.unwrap_or_else(|| "–".to_owned());
+    if row.law.exact() == row.law {
+        return Some([value, "exact".to_owned(), String::new()]);
+    }
+    let LargestError { error, angle_rad } = computed(ctx, row.law).largest;
+    let degrees = angle_rad.to_degrees();
+    Some([
+        value,
+        format!("{error:+.places$}"),
+        format!("{degrees:.angle_places$}°"),
+    ])
+}
+
+/// The formula's curve and name, to draw it and to take it.
+fn name_ui(ui: &mut Ui, model: &mut Model<'_>, row: &Row, is_narrow: bool) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = if is_narrow { 2.0 } else { 4.0 };
         ui.spacing_mut().button_padding.x = 2.0;
@@ -77,20 +138,6 @@ fn row_ui(
             }
         }
     });
-    if !row.shown {
-        return;
-    }
-    let mono = |text: String| RichText::new(text).monospace().size(11.0);
-    let value = incidence_rad.map(|angle| format!("{:.places$}", row.law.reflectance(angle)));
-    ui.label(mono(value.unwrap_or_else(|| "–".to_owned())));
-    if row.law.exact() == row.law {
-        ui.label(mono("exact".to_owned()));
-        return;
-    }
-    let LargestError { error, angle_rad } = computed(ui.ctx(), row.law).largest;
-    ui.label(mono(format!("{error:+.places$}")));
-    let degrees = angle_rad.to_degrees();
-    ui.label(mono(format!("{degrees:.angle_places$}°")));
 }
 
 /// Draws the curve or not; the exact one always is.

@@ -12,6 +12,7 @@ use crate::app::kept::kept;
 use crate::app::map_lines::Kind;
 use crate::app::marks::{cross_mark, edged, edged_text};
 use crate::app::model::Model;
+use crate::app::narrow::{picture_pane, slider_ui};
 use crate::app::state::FoldState;
 use crate::app::theme;
 use crate::app::viewport::{ORBIT_RAD_PER_POINT, aspect};
@@ -23,10 +24,7 @@ use crate::mapping::{Borders, ChartPoint, MappingId};
 
 /// Shows the pane in all the space there is.
 pub fn fold_ui(ui: &mut Ui, model: &mut Model<'_>) {
-    theme::pane_frame(ui).show(ui, |ui| {
-        controls_ui(ui, model);
-        surface_ui(ui, model);
-    });
+    picture_pane(ui, model, controls_ui, surface_ui);
 }
 
 fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
@@ -50,7 +48,7 @@ fn controls_ui(ui: &mut Ui, model: &mut Model<'_>) {
         }
         let label = ui.label(way);
         let slider = Slider::new(&mut fold.share, 0.0..=1.0).show_value(false);
-        if ui.add(slider).labelled_by(label.id).changed() {
+        if slider_ui(ui, slider, label.id, "").changed() {
             fold.towards = None;
         }
         ui.checkbox(&mut fold.see_through, "see through")

@@ -8,6 +8,7 @@ use crate::app::command::Command;
 use crate::app::dialogs::{Dialog, SaveDialog};
 use crate::app::lists::{grouped_ui, list_ui, scrolled_ui};
 use crate::app::model::Model;
+use crate::app::narrow::slider_ui;
 use crate::app::state::{BUDGET_TEXELS, LaboratoryState};
 use crate::lab::bench::Way;
 use crate::lab::filter::{Load, devices};
@@ -139,7 +140,8 @@ pub fn budget_ui(ui: &mut Ui, model: &mut Model<'_>) {
             .logarithmic(true)
             .max_decimals(4)
             .suffix(" texel");
-        let slider = ui.add_enabled(is_on, slider).labelled_by(on.id);
+        let slider_ui = |ui: &mut Ui| slider_ui(ui, slider, on.id, "0.0001 texel");
+        let slider = ui.add_enabled_ui(is_on, slider_ui).inner;
         is_changed = on.changed() || slider.changed();
     };
     if ui.available_width() >= BESIDE {

@@ -60,7 +60,8 @@ fn names_ui(ui: &mut Ui, model: &Model<'_>, maps: &[MappingId]) {
                 } else {
                     format!("{} (not measured yet)", info.name)
                 };
-                ui.label(RichText::new(text).small());
+                let name = egui::Label::new(RichText::new(&text).small());
+                ui.add(name.truncate()).on_hover_text(text);
             }
         });
     }

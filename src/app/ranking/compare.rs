@@ -1,12 +1,13 @@
 //! The chosen mappings over all criteria: a line for each, from the best of all mappings to the worst with a bound, with numbers.
 
-use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, TextStyle, Ui, Vec2, pos2, vec2};
 use egui_plot::MarkerShape;
 
 use super::axis::Axis;
 use super::entry::{CORNER, Entry, NO_COST, NONE, TO_COME, value_text};
 use crate::app::laboratory::paint_marker;
 use crate::app::model::Model;
+use crate::app::narrow::{next_line_unless, text_width};
 use crate::app::numbers::significant;
 use crate::app::theme;
 use crate::lab::metrics::CORNER_BOUND;
@@ -28,6 +29,10 @@ const WITH_ENDS: f32 = 560.0;
 const LEAST_LINE: f32 = 90.0;
 const MOST_HEIGHT: f32 = 30.0;
 const LETTER: f32 = 11.5;
+/// Height of the numbers below a line, width and height of a mark, and what lies between things.
+const NUMBER_HEIGHT: f32 = LETTER + 3.0;
+const MARK: f32 = 9.0;
+const GAP: f32 = 6.0;
 const QUIET: Color32 = Color32::from_gray(150);
 
 /// The plot, `size` large.
@@ -44,15 +49,10 @@ pub fn compare_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>], size: V
         ui.label("Tick up to four mappings in the table to compare them.");
         return;
     }
+    let top = ui.cursor().top();
     legend_ui(ui, &chosen);
-    let (rect, _) = ui.allocate_exact_size(vec2(size.x, size.y - 24.0), Sense::hover());
-    let lines = Criterion::ALL.len() as f32 + 2.0;
-    let height = (rect.height() / lines).clamp(LETTER + 4.0, MOST_HEIGHT);
-    let numbers = NUMBER * chosen.len() as f32;
-    let left = rect.left() + NAME;
-    let right = (rect.right() - numbers - 6.0).max(left + LEAST_LINE);
-    let ends = if rect.width() >= WITH_ENDS { 48.0 } else { 8.0 };
-    let line = Rect::from_x_y_ranges(left + ends..=right - ends, rect.y_range());
+    let layout = Layout::new(ui, size - vec2(0.0, ui.cursor().top() - top), chosen.len());
+    let (rect, line, height) = (layout.rect, layout.line, layout.height);
     let painter = ui.painter().clone();
     let words = |x: f32, y: f32, anchor: Align2, text: &str, color: Color32| {
         painter.text(
@@ -66,15 +66,30 @@ pub fn compare_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>], size: V
     let head = rect.top() + 0.5 * height;
     words(line.left(), head, Align2::CENTER_CENTER, "best", QUIET);
     words(line.right(), head, Align2::RIGHT_CENTER, "worst", QUIET);
-    for (k, _) in chosen.iter().enumerate() {
-        let at = pos2(right + NUMBER * (k as f32 + 1.0) - 8.0, head);
-        paint_marker(&painter, at, SHAPES[k % SHAPES.len()], theme::SERIES[k]);
+    if layout.is_beside() {
+        for k in 0..chosen.len() {
+            let at = pos2(layout.number(k, 0).0.x - 8.0, head);
+            paint_marker(&painter, at, SHAPES[k % SHAPES.len()], theme::SERIES[k]);
+        }
     }
+    let number_ui = |ui: &Ui, k: usize, row: usize, what: &str, text: &str| {
+        let (at, anchor) = layout.number(k, row);
+        if !layout.is_beside() {
+            let mark = at - vec2(0.5 * MARK + 2.0, 0.0);
+            paint_marker(&painter, mark, SHAPES[k % SHAPES.len()], theme::SERIES[k]);
+        }
+        let font = FontId::proportional(LETTER);
+        let place = painter.text(at, anchor, text, font, theme::SERIES[k]);
+        let id = ui.scope_id().with(("compared number", row, k));
+        let response = ui.interact(place, id, Sense::hover());
+        let label = format!("{} by {what}: {text}", chosen[k].map.info().id);
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &label));
+        response
+    };
     for (row, criterion) in Criterion::ALL.into_iter().enumerate() {
-        let y = rect.top() + (row as f32 + 1.5) * height;
-        let reach = Rect::from_x_y_ranges(rect.x_range(), y - 0.5 * height..=y + 0.5 * height);
+        let y = layout.middle(row);
         let id = ui.scope_id().with(("compare", row));
-        let response = ui.interact(reach, id, Sense::hover());
+        let mut response = ui.interact(layout.reach(row), id, Sense::hover());
         let axis = Axis::over(criterion, entries);
         let told: Vec<String> = chosen
             .iter()
@@ -99,7 +114,7 @@ pub fn compare_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>], size: V
             let end = |value: f64| value_text(criterion, value);
             let [best, worst] = axis.ends.map(end);
             hint += &format!("\nBest of all {best}, worst with a bound {worst}.");
-            if ends > 20.0 {
+            if layout.has_ends {
                 words(line.left() - 8.0, y, Align2::RIGHT_CENTER, &best, QUIET);
                 words(line.right() + 8.0, y, Align2::LEFT_CENTER, &worst, QUIET);
             }
@@ -131,35 +146,110 @@ pub fn compare_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>], size: V
             hint += &format!("\n{NO_COST}");
         }
         for (k, text) in told.iter().enumerate() {
-            let x = right + NUMBER * (k as f32 + 1.0);
-            words(x, y, Align2::RIGHT_CENTER, text, theme::SERIES[k]);
+            response |= number_ui(ui, k, row, criterion.name(), text);
         }
         response.on_hover_text(hint);
     }
     // No speed without its error.
-    let y = rect.top() + (lines - 0.5) * height;
+    let last = Criterion::ALL.len();
     words(
         rect.left(),
-        y,
+        layout.middle(last),
         Align2::LEFT_CENTER,
         "its error",
         Color32::from_gray(225),
     );
     for (k, entry) in chosen.iter().enumerate() {
-        let x = right + NUMBER * (k as f32 + 1.0);
         let text = match entry.cost {
             Some(choice) => format!("{} texel", significant(choice.error_texels)),
             None => NONE.to_owned(),
         };
-        words(x, y, Align2::RIGHT_CENTER, &text, theme::SERIES[k]);
+        number_ui(ui, k, last, "its error", &text);
+    }
+}
+
+/// Where everything stands: the numbers at the right of the lines, or where that leaves no room for lines, below each.
+struct Layout {
+    rect: Rect,
+    /// What the lines reach over, without the numbers at their ends.
+    line: Rect,
+    has_ends: bool,
+    /// Height of a line.
+    height: f32,
+    /// Numbers in a row below a line; `None` where they stand beside it.
+    in_row: Option<usize>,
+    /// Height of the numbers below a line.
+    below: f32,
+    /// Where the numbers beside the lines begin.
+    right: f32,
+}
+
+impl Layout {
+    /// For `count` mappings in a space of that size: takes its width, and the height that is needed.
+    fn new(ui: &mut Ui, size: Vec2, count: usize) -> Self {
+        let numbers = NUMBER * count as f32 + GAP;
+        let is_beside = size.x >= NAME + LEAST_LINE + numbers;
+        let in_row = (!is_beside).then(|| (size.x / NUMBER).max(1.0) as usize);
+        let below = in_row.map_or(0.0, |in_row| NUMBER_HEIGHT * count.div_ceil(in_row) as f32);
+        // The head, the criteria and the cost's error.
+        let criteria = Criterion::ALL.len() as f32;
+        let height = (size.y - (criteria + 1.0) * below) / (criteria + 2.0);
+        let height = height.clamp(LETTER + 4.0, MOST_HEIGHT);
+        let all = height + (criteria + 1.0) * (height + below);
+        let (rect, _) = ui.allocate_exact_size(vec2(size.x, all), Sense::hover());
+        let right = rect.right() - if is_beside { numbers } else { GAP };
+        let has_ends = is_beside && size.x >= WITH_ENDS;
+        let ends = if has_ends { 48.0 } else { 8.0 };
+        let line = Rect::from_x_y_ranges(rect.left() + NAME + ends..=right - ends, rect.y_range());
+        Self {
+            rect,
+            line,
+            has_ends,
+            height,
+            in_row,
+            below,
+            right,
+        }
+    }
+
+    fn is_beside(&self) -> bool {
+        self.in_row.is_none()
+    }
+
+    /// What belongs to a criterion.
+    fn reach(&self, row: usize) -> Rect {
+        let step = self.height + self.below;
+        let top = self.rect.top() + self.height + row as f32 * step;
+        Rect::from_x_y_ranges(self.rect.x_range(), top..=top + step)
+    }
+
+    /// Where a criterion's line lies.
+    fn middle(&self, row: usize) -> f32 {
+        self.reach(row).top() + 0.5 * self.height
+    }
+
+    /// Where the number of the `k`th mapping ends beside a line, or begins below it.
+    fn number(&self, k: usize, row: usize) -> (egui::Pos2, Align2) {
+        match self.in_row {
+            None => {
+                let x = self.right + NUMBER * (k as f32 + 1.0);
+                (pos2(x, self.middle(row)), Align2::RIGHT_CENTER)
+            }
+            Some(in_row) => {
+                let column = self.rect.width() / in_row as f32;
+                let x = self.rect.left() + (k % in_row) as f32 * column + MARK + GAP;
+                let lines = (k / in_row) as f32 + 0.5;
+                let y = self.reach(row).top() + self.height + lines * NUMBER_HEIGHT;
+                (pos2(x, y), Align2::LEFT_CENTER)
+            }
+        }
     }
 }
 
 /// How far below a criterion's line one of the marks at these places lies: those that would cover each other get a lane each, the
 /// others lie on the line.
 fn lane(k: usize, places: &[Option<f32>], height: f32) -> f32 {
-    /// Width and height of a mark, and the share of the height between two lines that lanes take.
-    const MARK: f32 = 9.0;
+    /// The share of the height between two lines that lanes take.
     const LANES: f32 = 0.85;
     let covers = |other: &Option<f32>| {
         let pair = places[k].zip(*other);
@@ -192,10 +282,15 @@ fn number(entry: &Entry<'_>, criterion: Criterion) -> String {
 fn legend_ui(ui: &mut Ui, chosen: &[&Entry<'_>]) {
     ui.horizontal_wrapped(|ui| {
         for (k, entry) in chosen.iter().enumerate() {
-            let (rect, _) = ui.allocate_exact_size(Vec2::splat(11.0), Sense::hover());
+            const SIDE: f32 = 11.0;
+            let id = entry.map.info().id;
+            // The mark stays with its name.
+            let gap = ui.spacing().item_spacing.x;
+            next_line_unless(ui, SIDE + gap + text_width(ui, id, TextStyle::Body));
+            let (rect, _) = ui.allocate_exact_size(Vec2::splat(SIDE), Sense::hover());
             let color = theme::SERIES[k];
             paint_marker(ui.painter(), rect.center(), SHAPES[k % SHAPES.len()], color);
-            ui.colored_label(color, entry.map.info().id);
+            ui.colored_label(color, id);
         }
     });
 }

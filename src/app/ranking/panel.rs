@@ -11,6 +11,7 @@ use crate::app::action::Action;
 use crate::app::command::Command;
 use crate::app::lists::list_ui;
 use crate::app::model::Model;
+use crate::app::narrow::slider_ui;
 use crate::app::state::{Claim, MOST_COMPARED, RankingPlot, RankingState};
 use crate::app::theme;
 use crate::lab::metrics::Metrics;
@@ -18,7 +19,7 @@ use crate::lab::ranking::{Basis, order, winners};
 use crate::mapping::{Family, MappingId};
 
 /// Below this width the pane scrolls sideways.
-const LEAST_WIDTH: f32 = 230.0;
+const LEAST_WIDTH: f32 = 170.0;
 /// Least height of the table and of the plot: below, the pane scrolls.
 const LOWEST_TABLE: f32 = 150.0;
 const LOWEST_PLOT: f32 = 250.0;
@@ -79,9 +80,9 @@ fn weight_ui(ui: &mut Ui, model: &mut Model<'_>) {
     let mut ranking = model.state.ranking.clone();
     ui.horizontal_wrapped(|ui| {
         let name = ui.label("area");
-        ui.spacing_mut().slider_width = 110.0;
         let slider = Slider::new(&mut ranking.weight, 0.0..=1.0).fixed_decimals(2);
-        ui.add(slider).labelled_by(name.id).on_hover_text(
+        ui.spacing_mut().slider_width = 110.0;
+        slider_ui(ui, slider, name.id, "0.00").on_hover_text(
             "How much shape counts: the score is (1 − w) ln(area) + w ln(a/b). Logarithms, because both are ratios: twice and half are equally far from even, and 0 is perfect.",
         );
         ui.label("shape");
