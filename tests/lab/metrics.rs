@@ -351,6 +351,15 @@ fn what_grows_without_bound_is_said_so() {
         text.contains(&format!("\"anisotropy_max\":\"{UNBOUNDED}\"")),
         "{text}"
     );
+    // Both means are integrals, which may not come to an end.
+    let unsettled = Metrics {
+        anisotropy_mean: f64::INFINITY,
+        omega_mean_deg: f64::INFINITY,
+        ..of("cube").clone()
+    };
+    let text = serde_json::to_string(&unsettled).unwrap();
+    assert_eq!(text.matches(UNBOUNDED).count(), 2, "{text}");
+    assert!(!text.contains("null"), "{text}");
 }
 
 #[test]

@@ -42,8 +42,9 @@ pub struct Metrics {
     #[serde(serialize_with = "bounded")]
     pub anisotropy_max: f64,
     /// Mean of the largest error of an angle, degrees.
+    #[serde(serialize_with = "bounded")]
     pub omega_mean_deg: f64,
-    /// Largest error of an angle, degrees.
+    /// Largest error of an angle, degrees; 180 where a/b has no bound.
     pub omega_max_deg: f64,
     /// Longest extent of any texel over the side of the ideal one.
     #[serde(serialize_with = "bounded")]
