@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::front::on_front;
 use super::metrics::{Metrics, omega_rad};
+use super::scatter::log_marks;
 
 pub use score::{Basis, Placed, bounded, bump, order, winners};
 
@@ -176,16 +177,15 @@ impl Criterion {
         }
     }
 
-    /// Values from `low` to `high`, about six, at which an axis is marked: in even steps where they are within a decade, else 1, 2 and 5 times the powers of ten.
+    /// Values from `low` to `high`, about six, at which an axis is marked: in even steps where they are within a decade, else as
+    /// [`log_marks`] has it.
     pub fn marks(self, [low, high]: [f64; 2]) -> Vec<f64> {
         const WANTED: f64 = 6.0;
         if !(low.is_finite() && high > low) {
             return Vec::new();
         }
         if low > 0.0 && high > 10.0 * low {
-            let powers = low.log10().floor() as i32..=high.log10().ceil() as i32;
-            let all = powers.flat_map(|power| [1.0, 2.0, 5.0].map(|s| s * 10_f64.powi(power)));
-            return all.filter(|mark| (low..=high).contains(mark)).collect();
+            return log_marks([low, high]);
         }
         let rough = (high - low) / WANTED;
         let power = 10_f64.powf(rough.log10().floor());
