@@ -168,13 +168,22 @@ impl Criterion {
         self.place(value) < UNBOUNDED_PLACE
     }
 
-    /// A value's place in whole steps of what can be told apart, to be compared; infinite without bound.
-    pub fn rank(self, value: f64) -> f64 {
-        if self.is_bounded(value) {
-            steps(self.place(value))
-        } else {
-            f64::INFINITY
-        }
+    /// Of each value the rank among all of them, as [`ranks`] has it for their places; infinite without bound.
+    pub fn ranks(self, values: &[f64]) -> Vec<f64> {
+        let place = |value: &f64| {
+            if self.is_bounded(*value) {
+                self.place(*value)
+            } else {
+                f64::INFINITY
+            }
+        };
+        ranks(&values.iter().map(place).collect::<Vec<_>>())
+    }
+
+    /// Whether a value lies between both ends, or is one as far as a search can tell.
+    pub fn is_within(self, value: f64, ends: [f64; 2]) -> bool {
+        let [low, high] = ends.map(|end| self.place(end));
+        (low - EQUAL..=high + EQUAL).contains(&self.place(value))
     }
 
     /// Values from `low` to `high`, about six, at which an axis is marked: in even steps where they are within a decade, else as
@@ -216,9 +225,21 @@ pub fn compare(a: Option<f64>, b: Option<f64>, descending: bool) -> Ordering {
 /// Logarithms as near as this are equal: the search for the extremes ends as near to them.
 const EQUAL: f64 = 1e-6;
 
-/// A logarithm in steps of [`EQUAL`], which can be compared without regard to the last digits of a search.
-fn steps(log: f64) -> f64 {
-    (log / EQUAL).round()
+/// Of each logarithm the rank among all of them, from 0; those that lie within [`EQUAL`] of the next have the same. What is infinite stays so.
+fn ranks(logs: &[f64]) -> Vec<f64> {
+    let mut rising: Vec<usize> = (0..logs.len()).collect();
+    rising.sort_by(|a, b| logs[*a].total_cmp(&logs[*b]));
+    let mut ranks = vec![0.0; logs.len()];
+    let mut rank = 0.0;
+    let mut before = f64::NEG_INFINITY;
+    for k in rising {
+        if logs[k] - before > EQUAL && before.is_finite() {
+            rank += 1.0;
+        }
+        before = logs[k];
+        ranks[k] = if before.is_finite() { rank } else { before };
+    }
+    ranks
 }
 
 /// A ratio of e to this power is none any more: an angle off by 180 degrees less what f64 can tell apart has 37.
@@ -227,8 +248,11 @@ const UNBOUNDED_PLACE: f64 = 30.0;
 /// Which mappings nothing beats in both criteria, by their values. What only the last digits of a search tell apart counts as equal, or noise
 /// would decide among those that are equal-area. What has no bound in one of both is not on the front.
 pub fn front(criteria: [Criterion; 2], values: &[[f64; 2]]) -> Vec<bool> {
-    let rank = |[x, y]: &[f64; 2]| (criteria[0].rank(*x), criteria[1].rank(*y));
-    on_front(&values.iter().map(rank).collect::<Vec<_>>())
+    let [across, up] = [0, 1].map(|k: usize| {
+        let values: Vec<f64> = values.iter().map(|at| at[k]).collect();
+        criteria[k].ranks(&values)
+    });
+    on_front(&across.into_iter().zip(up).collect::<Vec<_>>())
 }
 
 #[cfg(test)]
@@ -320,11 +344,30 @@ mod tests {
         // 180 degrees are no bound, and in the order they come last both ways.
         let omega = Criterion::OmegaMax;
         assert!(!omega.is_bounded(180.0) && omega.is_bounded(179.0));
-        assert_eq!(omega.rank(180.0), infinite);
-        assert_eq!(Criterion::ShapeMax.rank(1.0 + 1e-8), 0.0);
+        assert_eq!(omega.ranks(&[180.0, 90.0]), [infinite, 0.0]);
         assert_eq!(
             super::front([Criterion::Area, omega], &[[1.0, 180.0]]),
             [false]
         );
+    }
+
+    #[test]
+    fn what_lies_within_a_search_of_the_next_has_its_rank_wherever_it_lies() {
+        let infinite = f64::INFINITY;
+        // Across the half of a step, where rounding parts what is 1e-15 apart; the control is as far as can be told apart.
+        for middle in [0.0, 0.5e-6, 1.5e-6, 0.7] {
+            let logs = [middle + 1e-15, infinite, middle + 2e-6, middle - 1e-15];
+            assert_eq!(ranks(&logs), [0.0, infinite, 1.0, 0.0], "{middle}");
+        }
+        assert_eq!(
+            ranks(&[1.6e-6, 0.8e-6, 0.0]),
+            [0.0; 3],
+            "each within the next"
+        );
+        assert_eq!(ranks(&[]), [0.0; 0]);
+        let shape = Criterion::ShapeMax;
+        assert_eq!(shape.ranks(&[2.0, 1.0 + 1e-8, 1.0]), [1.0, 0.0, 0.0]);
+        assert!(shape.is_within(2.0 + 1e-9, [1.0, 2.0]) && !shape.is_within(2.001, [1.0, 2.0]));
+        assert!(!shape.is_within(infinite, [1.0, 2.0]));
     }
 }

@@ -39,8 +39,7 @@ impl Axis {
 
     /// Whether a value lies between the ends, or is one as far as a search can tell.
     pub fn contains(&self, value: f64) -> bool {
-        let [low, high] = self.ends.map(|end| self.criterion.rank(end));
-        (low..=high).contains(&self.criterion.rank(value))
+        self.criterion.is_within(value, self.ends)
     }
 
     /// Share of the axis, 0 to 1: from the best to the worst, and 1 where there is no bound. `margin` is left free at both ends.
