@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use serde::{Deserialize, Serialize};
 
 use super::front::on_front;
-use super::metrics::{Metrics, omega_rad};
+use super::metrics::{CORNER_BOUND, Metrics, omega_rad};
 use super::scatter::log_marks;
 
 pub use score::{Basis, Placed, bounded, bump, order, winners};
@@ -130,6 +130,15 @@ impl Criterion {
             Self::Diagonals => metrics.diagonal_ratio,
             Self::Cost => return cost_ns,
         })
+    }
+
+    /// What no mapping that is smooth at a cube's corner is below there: [`CORNER_BOUND`], and the error of angles that belongs to it.
+    pub fn corner_bound(self) -> Option<f64> {
+        match self {
+            Self::ShapeMax => Some(CORNER_BOUND),
+            Self::OmegaMax => Some(omega_rad(CORNER_BOUND).to_degrees()),
+            _ => None,
+        }
     }
 
     /// The unit that is written behind a value.
@@ -284,9 +293,23 @@ mod tests {
                 assert!((back / value - 1.0).abs() < 1e-12, "{criterion:?} {value}");
             }
         }
-        // A right angle off by 31.08 degrees is the cube's corner, sqrt 3.
-        let omega = omega_rad(3_f64.sqrt()).to_degrees();
-        assert!((Criterion::OmegaMax.place(omega) - 0.5 * 3_f64.ln()).abs() < 1e-14);
+        // Angles off by 31.08 degrees are those at the cube's corner, sqrt 3: one bound at one place.
+        let root = 3_f64.sqrt();
+        let omega = Criterion::OmegaMax.corner_bound().unwrap();
+        let sine = (root - 1.0) / (root + 1.0);
+        assert!((omega - (2.0 * sine.asin()).to_degrees()).abs() < 1e-13);
+        assert!((omega - 31.0845).abs() < 5e-5, "{omega}");
+        let shape = Criterion::ShapeMax.corner_bound().unwrap();
+        let places = [
+            Criterion::OmegaMax.place(omega),
+            Criterion::ShapeMax.place(shape),
+        ];
+        assert!(
+            places
+                .iter()
+                .all(|place| (place - 0.5 * 3_f64.ln()).abs() < 1e-14)
+        );
+        assert_eq!(Criterion::OmegaMean.corner_bound(), None);
         assert_eq!(Criterion::OmegaMax.place(0.0), 0.0);
         assert_eq!(Criterion::AreaRms.place(0.0), 0.0);
         assert!(Criterion::OmegaMax.place(180.0) > 30.0, "no bound");

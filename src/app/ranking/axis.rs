@@ -82,7 +82,7 @@ impl Axis {
 mod tests {
     use super::*;
     use crate::imaging::Progress;
-    use crate::lab::metrics::{CORNER_BOUND, measure};
+    use crate::lab::metrics::measure;
     use crate::mapping::MappingId;
 
     #[test]
@@ -110,8 +110,12 @@ mod tests {
         assert_eq!(two.share(two.ends[1], 0.0), 1.0);
         assert!(two.contains(4.5) && !two.contains(2.0) && !two.contains(6.0));
         // The cube's corner is the end of an axis to the last digit but one.
-        let shape = Axis::over(Criterion::ShapeMax, &entries[..2]).unwrap();
-        assert!(shape.contains(CORNER_BOUND * (1.0 + 1e-15)));
+        for criterion in [Criterion::ShapeMax, Criterion::OmegaMax] {
+            let axis = Axis::over(criterion, &entries[..2]).unwrap();
+            let bound = criterion.corner_bound().unwrap();
+            assert!(axis.contains(bound * (1.0 + 1e-15)) && !axis.contains(1.01 * bound));
+            assert!((axis.share(bound, 0.0) - 1.0).abs() < 1e-6, "{criterion:?}");
+        }
         assert!((two.share((two.ends[0] * two.ends[1]).sqrt(), 0.0) - 0.5).abs() < 1e-6);
         assert!(Axis::over(Criterion::Cost, &entries).is_none());
     }

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use egui::{Align2, Checkbox, Color32, FontId, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
 use egui_plot::MarkerShape;
 
-use super::entry::{CORNER, Entry, NO_COST, NONE, TO_COME};
+use super::entry::{Entry, NO_COST, NONE, TO_COME, corner};
 use super::panel::set;
 use crate::app::action::Action;
 use crate::app::laboratory::paint_marker;
@@ -51,10 +51,10 @@ fn about(column: RankingColumn) -> String {
         RankingColumn::Score => {
             "Place by area and shape as they are weighed above, and the score: 0 is perfect, ln 2 = 0.693 twice as bad as that; what is unbounded comes last.".to_owned()
         }
-        RankingColumn::By(Criterion::ShapeMax) => {
-            format!("{}\n{CORNER}", Criterion::ShapeMax.about())
-        }
-        RankingColumn::By(criterion) => criterion.about().to_owned(),
+        RankingColumn::By(criterion) => match corner(criterion) {
+            Some(corner) => format!("{}\n{}", criterion.about(), corner.reason),
+            None => criterion.about().to_owned(),
+        },
         RankingColumn::Claims => {
             "Equal-area: equal parts of the map are equal solid angles. Conformal: angles are kept. Continuous: both sides divide a seam alike.".to_owned()
         }
