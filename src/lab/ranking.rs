@@ -199,8 +199,14 @@ impl Criterion {
     /// [`log_marks`] has it.
     pub fn marks(self, [low, high]: [f64; 2]) -> Vec<f64> {
         const WANTED: f64 = 6.0;
+        /// Share of the largest at which marks begin beside 0.
+        const BESIDE_ZERO: f64 = 0.01;
         if !(low.is_finite() && high > low) {
             return Vec::new();
+        }
+        if self.place(0.0) == 0.0 && self.is_within(0.0, [low, high]) {
+            let beside = log_marks([BESIDE_ZERO * high, high]);
+            return std::iter::once(0.0).chain(beside).collect();
         }
         if low > 0.0 && high > 10.0 * low {
             return log_marks([low, high]);
@@ -328,6 +334,10 @@ mod tests {
         );
         assert_eq!(marks(0.0, 5.0), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
         assert!(marks(1.0, 1.0).is_empty());
+        // What is 0 at best is marked there once, however near to it a search has come.
+        let omega = Criterion::OmegaMax.marks([1e-6, 60.0]);
+        assert_eq!(omega, [0.0, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0]);
+        assert_eq!(Criterion::OmegaMax.marks([20.0, 40.0])[0], 20.0);
         assert!(marks(f64::INFINITY, f64::NEG_INFINITY).is_empty());
     }
 

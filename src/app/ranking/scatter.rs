@@ -183,24 +183,32 @@ fn paint_corner(painter: &Painter, frame: Rect, across: &Axis, up: &Axis) -> Vec
     let mut covered = Vec::new();
     let font = FontId::proportional(LETTER);
     let stroke = Stroke::new(1.0, theme::TEXEL);
-    let bound = |axis: &Axis| {
-        let Corner { bound, name, .. } = corner(axis.criterion)?;
-        let text = format!("{name}: no mapping that is smooth at a cube's corner is below");
-        let is_shown = axis.contains(bound);
-        is_shown.then(|| (axis.share(bound, MARGIN), text))
+    let bound = |axis: &Axis, room: f32| {
+        let corner = corner(axis.criterion).filter(|corner| axis.contains(corner.bound));
+        let Corner { bound, name, .. } = corner?;
+        let whole = format!("{name}: no mapping that is smooth at a cube's corner is below");
+        // The whole where there is room, so that nothing runs beyond the frame.
+        let words = |text: String| painter.layout_no_wrap(text, font.clone(), theme::TEXEL);
+        let whole = words(whole);
+        let galley = if whole.size().x < room - 8.0 {
+            whole
+        } else {
+            words(name)
+        };
+        Some((axis.share(bound, MARGIN), galley))
     };
-    if let Some((share, text)) = bound(up) {
+    if let Some((share, galley)) = bound(up, frame.width()) {
         let y = frame.bottom() - frame.height() * share;
         painter.hline(frame.x_range(), y, stroke);
         let at = pos2(frame.right() - 4.0, y + 1.0);
-        let words = painter.text(at, Align2::RIGHT_TOP, text, font.clone(), theme::TEXEL);
+        let words = Align2::RIGHT_TOP.anchor_size(at, galley.size());
+        painter.galley(words.min, galley, theme::TEXEL);
         let line = Rect::from_x_y_ranges(frame.x_range(), y - 1.0..=y + 1.0);
         covered.extend([words, line]);
     }
-    if let Some((share, text)) = bound(across) {
+    if let Some((share, galley)) = bound(across, frame.height()) {
         let x = frame.left() + frame.width() * share;
         painter.vline(x, frame.y_range(), stroke);
-        let galley = painter.layout_no_wrap(text, font, theme::TEXEL);
         let at = pos2(x + 2.0 + galley.size().y, frame.top() + 4.0);
         let words = vec2(galley.size().y + 3.0, galley.size().x);
         covered.push(Rect::from_min_size(pos2(x, frame.top() + 4.0), words));
