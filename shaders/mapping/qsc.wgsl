@@ -7,6 +7,7 @@ fn qsc_square(plane: vec2f) -> vec2f {
     // In the very middle there is no slope; any will do.
     var slope = 0.0;
     if abs(turned.x) >= SMALLEST_NORMAL {
+        // A division may be off by 2.5 ULP and go beyond 1; the twin's is rounded right, so it needs no clamp.
         slope = clamp(turned.y / turned.x, -1.0, 1.0);
     }
     let square = slope * slope;
@@ -24,6 +25,7 @@ fn qsc_plane(place: vec2f) -> vec2f {
     let turned = select(place, place.yx, is_upright);
     var slope = 0.0;
     if abs(turned.x) >= SMALLEST_NORMAL {
+        // As above.
         slope = clamp(turned.y / turned.x, -1.0, 1.0);
     }
     // By the half of the angle and sin(pi/8), so that nothing cancels.

@@ -10,7 +10,8 @@ use std::cmp::Ordering;
 use serde::{Deserialize, Serialize};
 
 use super::front::on_front;
-use super::metrics::{Metrics, omega_rad};
+use super::metrics::{CORNER_BOUND, Metrics, omega_rad};
+use super::scatter::log_marks;
 
 pub use score::{Basis, Placed, bounded, bump, order, winners};
 
@@ -131,6 +132,15 @@ impl Criterion {
         })
     }
 
+    /// What no mapping that is smooth at a cube's corner is below there: [`CORNER_BOUND`], and the error of angles that belongs to it.
+    pub fn corner_bound(self) -> Option<f64> {
+        match self {
+            Self::ShapeMax => Some(CORNER_BOUND),
+            Self::OmegaMax => Some(omega_rad(CORNER_BOUND).to_degrees()),
+            _ => None,
+        }
+    }
+
     /// The unit that is written behind a value.
     pub const fn unit(self) -> &'static str {
         match self {
@@ -167,25 +177,39 @@ impl Criterion {
         self.place(value) < UNBOUNDED_PLACE
     }
 
-    /// A value's place in whole steps of what can be told apart, to be compared; infinite without bound.
-    pub fn rank(self, value: f64) -> f64 {
-        if self.is_bounded(value) {
-            steps(self.place(value))
-        } else {
-            f64::INFINITY
-        }
+    /// Of each value the rank among all of them, as [`ranks`] has it for their places; infinite without bound.
+    pub fn ranks(self, values: &[f64]) -> Vec<f64> {
+        let place = |value: &f64| {
+            if self.is_bounded(*value) {
+                self.place(*value)
+            } else {
+                f64::INFINITY
+            }
+        };
+        ranks(&values.iter().map(place).collect::<Vec<_>>())
     }
 
-    /// Values from `low` to `high`, about six, at which an axis is marked: in even steps where they are within a decade, else 1, 2 and 5 times the powers of ten.
+    /// Whether a value lies between both ends, or is one as far as a search can tell.
+    pub fn is_within(self, value: f64, ends: [f64; 2]) -> bool {
+        let [low, high] = ends.map(|end| self.place(end));
+        (low - EQUAL..=high + EQUAL).contains(&self.place(value))
+    }
+
+    /// Values from `low` to `high`, about six, at which an axis is marked: in even steps where they are within a decade, else as
+    /// [`log_marks`] has it.
     pub fn marks(self, [low, high]: [f64; 2]) -> Vec<f64> {
         const WANTED: f64 = 6.0;
+        /// Share of the largest at which marks begin beside 0.
+        const BESIDE_ZERO: f64 = 0.01;
         if !(low.is_finite() && high > low) {
             return Vec::new();
         }
+        if self.place(0.0) == 0.0 && self.is_within(0.0, [low, high]) {
+            let beside = log_marks([BESIDE_ZERO * high, high]);
+            return std::iter::once(0.0).chain(beside).collect();
+        }
         if low > 0.0 && high > 10.0 * low {
-            let powers = low.log10().floor() as i32..=high.log10().ceil() as i32;
-            let all = powers.flat_map(|power| [1.0, 2.0, 5.0].map(|s| s * 10_f64.powi(power)));
-            return all.filter(|mark| (low..=high).contains(mark)).collect();
+            return log_marks([low, high]);
         }
         let rough = (high - low) / WANTED;
         let power = 10_f64.powf(rough.log10().floor());
@@ -216,9 +240,21 @@ pub fn compare(a: Option<f64>, b: Option<f64>, descending: bool) -> Ordering {
 /// Logarithms as near as this are equal: the search for the extremes ends as near to them.
 const EQUAL: f64 = 1e-6;
 
-/// A logarithm in steps of [`EQUAL`], which can be compared without regard to the last digits of a search.
-fn steps(log: f64) -> f64 {
-    (log / EQUAL).round()
+/// Of each logarithm the rank among all of them, from 0; those that lie within [`EQUAL`] of the next have the same. What is infinite stays so.
+fn ranks(logs: &[f64]) -> Vec<f64> {
+    let mut rising: Vec<usize> = (0..logs.len()).collect();
+    rising.sort_by(|a, b| logs[*a].total_cmp(&logs[*b]));
+    let mut ranks = vec![0.0; logs.len()];
+    let mut rank = 0.0;
+    let mut before = f64::NEG_INFINITY;
+    for k in rising {
+        if logs[k] - before > EQUAL && before.is_finite() {
+            rank += 1.0;
+        }
+        before = logs[k];
+        ranks[k] = if before.is_finite() { rank } else { before };
+    }
+    ranks
 }
 
 /// A ratio of e to this power is none any more: an angle off by 180 degrees less what f64 can tell apart has 37.
@@ -227,8 +263,11 @@ const UNBOUNDED_PLACE: f64 = 30.0;
 /// Which mappings nothing beats in both criteria, by their values. What only the last digits of a search tell apart counts as equal, or noise
 /// would decide among those that are equal-area. What has no bound in one of both is not on the front.
 pub fn front(criteria: [Criterion; 2], values: &[[f64; 2]]) -> Vec<bool> {
-    let rank = |[x, y]: &[f64; 2]| (criteria[0].rank(*x), criteria[1].rank(*y));
-    on_front(&values.iter().map(rank).collect::<Vec<_>>())
+    let [across, up] = [0, 1].map(|k: usize| {
+        let values: Vec<f64> = values.iter().map(|at| at[k]).collect();
+        criteria[k].ranks(&values)
+    });
+    on_front(&across.into_iter().zip(up).collect::<Vec<_>>())
 }
 
 #[cfg(test)]
@@ -260,9 +299,23 @@ mod tests {
                 assert!((back / value - 1.0).abs() < 1e-12, "{criterion:?} {value}");
             }
         }
-        // A right angle off by 31.08 degrees is the cube's corner, sqrt 3.
-        let omega = omega_rad(3_f64.sqrt()).to_degrees();
-        assert!((Criterion::OmegaMax.place(omega) - 0.5 * 3_f64.ln()).abs() < 1e-14);
+        // Angles off by 31.08 degrees are those at the cube's corner, sqrt 3: one bound at one place.
+        let root = 3_f64.sqrt();
+        let omega = Criterion::OmegaMax.corner_bound().unwrap();
+        let sine = (root - 1.0) / (root + 1.0);
+        assert!((omega - (2.0 * sine.asin()).to_degrees()).abs() < 1e-13);
+        assert!((omega - 31.0845).abs() < 5e-5, "{omega}");
+        let shape = Criterion::ShapeMax.corner_bound().unwrap();
+        let places = [
+            Criterion::OmegaMax.place(omega),
+            Criterion::ShapeMax.place(shape),
+        ];
+        assert!(
+            places
+                .iter()
+                .all(|place| (place - 0.5 * 3_f64.ln()).abs() < 1e-14)
+        );
+        assert_eq!(Criterion::OmegaMean.corner_bound(), None);
         assert_eq!(Criterion::OmegaMax.place(0.0), 0.0);
         assert_eq!(Criterion::AreaRms.place(0.0), 0.0);
         assert!(Criterion::OmegaMax.place(180.0) > 30.0, "no bound");
@@ -281,6 +334,10 @@ mod tests {
         );
         assert_eq!(marks(0.0, 5.0), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
         assert!(marks(1.0, 1.0).is_empty());
+        // What is 0 at best is marked there once, however near to it a search has come.
+        let omega = Criterion::OmegaMax.marks([1e-6, 60.0]);
+        assert_eq!(omega, [0.0, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0]);
+        assert_eq!(Criterion::OmegaMax.marks([20.0, 40.0])[0], 20.0);
         assert!(marks(f64::INFINITY, f64::NEG_INFINITY).is_empty());
     }
 
@@ -320,11 +377,30 @@ mod tests {
         // 180 degrees are no bound, and in the order they come last both ways.
         let omega = Criterion::OmegaMax;
         assert!(!omega.is_bounded(180.0) && omega.is_bounded(179.0));
-        assert_eq!(omega.rank(180.0), infinite);
-        assert_eq!(Criterion::ShapeMax.rank(1.0 + 1e-8), 0.0);
+        assert_eq!(omega.ranks(&[180.0, 90.0]), [infinite, 0.0]);
         assert_eq!(
             super::front([Criterion::Area, omega], &[[1.0, 180.0]]),
             [false]
         );
+    }
+
+    #[test]
+    fn what_lies_within_a_search_of_the_next_has_its_rank_wherever_it_lies() {
+        let infinite = f64::INFINITY;
+        // Across the half of a step, where rounding parts what is 1e-15 apart; the control is as far as can be told apart.
+        for middle in [0.0, 0.5e-6, 1.5e-6, 0.7] {
+            let logs = [middle + 1e-15, infinite, middle + 2e-6, middle - 1e-15];
+            assert_eq!(ranks(&logs), [0.0, infinite, 1.0, 0.0], "{middle}");
+        }
+        assert_eq!(
+            ranks(&[1.6e-6, 0.8e-6, 0.0]),
+            [0.0; 3],
+            "each within the next"
+        );
+        assert_eq!(ranks(&[]), [0.0; 0]);
+        let shape = Criterion::ShapeMax;
+        assert_eq!(shape.ranks(&[2.0, 1.0 + 1e-8, 1.0]), [1.0, 0.0, 0.0]);
+        assert!(shape.is_within(2.0 + 1e-9, [1.0, 2.0]) && !shape.is_within(2.001, [1.0, 2.0]));
+        assert!(!shape.is_within(infinite, [1.0, 2.0]));
     }
 }

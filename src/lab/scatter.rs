@@ -96,19 +96,23 @@ impl LogAxis {
         (value.log10() - self.low) / (self.high - self.low)
     }
 
-    /// Where lines are drawn: 1, 2 and 5 times the powers of ten, or those alone where there are many.
+    /// Where lines are drawn.
     pub fn marks(self) -> Vec<f64> {
-        let steps: &[f64] = if self.high - self.low > 3.0 {
-            &[1.0]
-        } else {
-            &[1.0, 2.0, 5.0]
-        };
-        let powers = self.low.floor() as i32..=self.high.ceil() as i32;
-        let marks = powers.flat_map(|power| steps.iter().map(move |s| s * 10_f64.powi(power)));
-        marks
-            .filter(|mark| (0.0..=1.0).contains(&self.share(*mark)))
-            .collect()
+        log_marks([self.low, self.high].map(|exponent| 10_f64.powf(exponent)))
     }
+}
+
+/// Where a logarithmic axis from `low` to `high` is marked: at 1, 2 and 5 times the powers of ten, or at those alone where there are many.
+pub fn log_marks([low, high]: [f64; 2]) -> Vec<f64> {
+    const MANY: f64 = 1e3;
+    let steps: &[f64] = if high > MANY * low {
+        &[1.0]
+    } else {
+        &[1.0, 2.0, 5.0]
+    };
+    let powers = low.log10().floor() as i32..=high.log10().ceil() as i32;
+    let marks = powers.flat_map(|power| steps.iter().map(move |s| s * 10_f64.powi(power)));
+    marks.filter(|mark| (low..=high).contains(mark)).collect()
 }
 
 /// Nanoseconds and radians of each.
@@ -208,4 +212,16 @@ fn field(
 pub fn front_steps(front: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let corner = |pair: &[[f64; 2]]| [pair[0], [pair[1][0], pair[0][1]], pair[1]];
     front.windows(2).flat_map(corner).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::log_marks;
+
+    #[test]
+    fn an_axis_is_marked_at_one_two_and_five_or_at_powers_where_there_are_many() {
+        assert_eq!(log_marks([0.5, 20.0]), [0.5, 1.0, 2.0, 5.0, 10.0, 20.0]);
+        assert_eq!(log_marks([0.3, 2e3]), [1.0, 10.0, 100.0, 1e3]);
+        assert!(log_marks([6.0, 9.0]).is_empty());
+    }
 }

@@ -202,8 +202,8 @@ impl MappingId {
     }
 
     /// Sum of the solid angles of all texels in sr, with `rows` texels along a chart's height; by rows and charts, as the roundings of
-    /// many equal texels would add up.
-    pub fn solid_angle_sum_sr(self, rows: u32) -> f64 {
+    /// many equal texels would add up. `None` once `goes_on`, which is asked at every row, says no.
+    pub fn solid_angle_sum_sr(self, rows: u32, goes_on: impl Fn() -> bool) -> Option<f64> {
         let info = self.info();
         let columns = (f64::from(rows) * info.aspect).round() as u32;
         let row = |chart: u32, row: u32| -> f64 {
@@ -211,16 +211,33 @@ impl MappingId {
                 .map(|column| self.texel_solid_angle_sr(chart, [column, row], [columns, rows]))
                 .sum()
         };
-        let chart = |chart: u32| -> f64 { (0..rows).map(|k| row(chart, k)).sum() };
+        let row = |chart: u32, k: u32| goes_on().then(|| row(chart, k));
+        let chart = |chart: u32| -> Option<f64> { (0..rows).map(|k| row(chart, k)).sum() };
         (0..info.chart_count()).map(chart).sum()
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use super::*;
 
     const WHOLE: [Range; 2] = [[0.0, 1.0], [0.0, 1.0]];
+
+    #[test]
+    fn a_sum_is_given_up_at_the_next_row() {
+        let asked = Cell::new(0);
+        let sum = |last: u32| {
+            asked.set(0);
+            MappingId::Cube.solid_angle_sum_sr(8, || {
+                asked.set(asked.get() + 1);
+                asked.get() < last
+            })
+        };
+        assert_eq!((sum(11), asked.get()), (None, 11));
+        assert!(sum(49).is_some() && asked.get() == 48, "control");
+    }
 
     #[test]
     fn the_bends_cut_a_chart_into_sixteen_triangles() {

@@ -45,7 +45,8 @@ impl FaceMap for Cobe {
     }
 }
 
-/// 2.5e-3/16^n is below half a unit in the last place of f32 for n = 4 and of f64 for n = 12.
+/// What is left of the fit's 2.5e-3 after n sweeps, 2.5e-3/16^n, counts half in u = (1 + p)/2. For u from 1/2 on this is below half a unit in the last
+/// place: 1.9e-8 of f32's 3.0e-8 for n = 4, and 4e-18 of f64's 5.6e-17 for n = 12.
 fn sweeps<R: Real>() -> u32 {
     if R::EPSILON > 1e-10 { 4 } else { 12 }
 }

@@ -12,7 +12,7 @@ pub struct Outerra;
 const LIFT: f64 = (SQRT_2 - 1.0) / 2.0;
 
 /// Newton's steps from the first guess: the error is below 1e-10 after two and below the last digit of f64 after three; one
-/// more brings a derivative there too.
+/// more brings a derivative there too. The shader, in f32 and without derivatives, takes three.
 const STEPS: u32 = 4;
 
 impl FaceMap for Outerra {

@@ -60,7 +60,10 @@ pub fn jacobian(subject: &Subject) -> Vec<Finding> {
 pub fn solid_angles(subject: &Subject) -> Vec<Finding> {
     let coverage = subject.info().coverage.solid_angle_sr();
     let skew = if subject.is(Fault::Skewed) { 1.05 } else { 1.0 };
-    let off = |rows: u32| (subject.map.solid_angle_sum_sr(rows) * skew - coverage).abs();
+    let off = |rows: u32| {
+        let sum_sr = subject.map.solid_angle_sum_sr(rows, || true);
+        (sum_sr.unwrap_or(f64::NAN) * skew - coverage).abs()
+    };
     let fine = match subject.map {
         // Around its rim the solid angle grows without bound, and f64's u and v cannot tell how near the rim is.
         MappingId::Matcap => Finding::new("64 rows of texels, unbounded, sr", off(64), 3e-13),

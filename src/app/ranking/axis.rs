@@ -39,8 +39,7 @@ impl Axis {
 
     /// Whether a value lies between the ends, or is one as far as a search can tell.
     pub fn contains(&self, value: f64) -> bool {
-        let [low, high] = self.ends.map(|end| self.criterion.rank(end));
-        (low..=high).contains(&self.criterion.rank(value))
+        self.criterion.is_within(value, self.ends)
     }
 
     /// Share of the axis, 0 to 1: from the best to the worst, and 1 where there is no bound. `margin` is left free at both ends.
@@ -83,7 +82,7 @@ impl Axis {
 mod tests {
     use super::*;
     use crate::imaging::Progress;
-    use crate::lab::metrics::{CORNER_BOUND, measure};
+    use crate::lab::metrics::measure;
     use crate::mapping::MappingId;
 
     #[test]
@@ -111,8 +110,12 @@ mod tests {
         assert_eq!(two.share(two.ends[1], 0.0), 1.0);
         assert!(two.contains(4.5) && !two.contains(2.0) && !two.contains(6.0));
         // The cube's corner is the end of an axis to the last digit but one.
-        let shape = Axis::over(Criterion::ShapeMax, &entries[..2]).unwrap();
-        assert!(shape.contains(CORNER_BOUND * (1.0 + 1e-15)));
+        for criterion in [Criterion::ShapeMax, Criterion::OmegaMax] {
+            let axis = Axis::over(criterion, &entries[..2]).unwrap();
+            let bound = criterion.corner_bound().unwrap();
+            assert!(axis.contains(bound * (1.0 + 1e-15)) && !axis.contains(1.01 * bound));
+            assert!((axis.share(bound, 0.0) - 1.0).abs() < 1e-6, "{criterion:?}");
+        }
         assert!((two.share((two.ends[0] * two.ends[1]).sqrt(), 0.0) - 0.5).abs() < 1e-6);
         assert!(Axis::over(Criterion::Cost, &entries).is_none());
     }

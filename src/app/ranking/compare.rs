@@ -4,13 +4,12 @@ use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, TextStyle, Ui, Vec2, po
 use egui_plot::MarkerShape;
 
 use super::axis::Axis;
-use super::entry::{CORNER, Entry, NO_COST, NONE, TO_COME, value_text};
+use super::entry::{Entry, NO_COST, NONE, TO_COME, corner, value_text};
 use crate::app::laboratory::paint_marker;
 use crate::app::model::Model;
 use crate::app::narrow::{next_line_unless, text_width};
 use crate::app::numbers::significant;
 use crate::app::theme;
-use crate::lab::metrics::CORNER_BOUND;
 use crate::lab::ranking::Criterion;
 
 /// Marks of the chosen, told apart by shape as well as by [`theme::SERIES`].
@@ -122,14 +121,14 @@ pub fn compare_ui(ui: &mut Ui, model: &Model<'_>, entries: &[Entry<'_>], size: V
                 let x = line.left() + border * line.width();
                 painter.vline(x, y - 4.0..=y + 4.0, Stroke::new(1.0, QUIET));
             }
-            if criterion == Criterion::ShapeMax && axis.contains(CORNER_BOUND) {
-                let x = line.left() + line.width() * axis.share(CORNER_BOUND, 0.0);
+            if let Some(corner) = corner(criterion).filter(|c| axis.contains(c.bound)) {
+                let x = line.left() + line.width() * axis.share(corner.bound, 0.0);
                 let half = 0.5 * height;
                 painter.vline(x, y - half..=y + half, Stroke::new(1.5, theme::TEXEL));
                 let at = pos2(x + 7.0, y - 0.5 * half);
                 let font = FontId::proportional(LETTER - 2.0);
-                painter.text(at, Align2::LEFT_CENTER, "√3", font, theme::TEXEL);
-                hint += &format!("\n{CORNER}");
+                painter.text(at, Align2::LEFT_CENTER, corner.name, font, theme::TEXEL);
+                hint += &format!("\n{}", corner.reason);
             }
             let place = |entry: &&Entry<'_>| {
                 let share = axis.share(entry.value(criterion)?, 0.0);

@@ -5,7 +5,7 @@ use crate::app::model::Model;
 use crate::app::numbers::significant;
 use crate::app::state::Claim;
 use crate::lab::choice::Choice;
-use crate::lab::metrics::{CORNER_BOUND, Metrics, UNBOUNDED};
+use crate::lab::metrics::{Metrics, UNBOUNDED};
 use crate::lab::ranking::{Criterion, Placed, order};
 use crate::mapping::{Borders, MappingId};
 
@@ -16,8 +16,33 @@ pub const NONE: &str = "–";
 /// How to get costs.
 pub const NO_COST: &str = "Not measured on this machine: open Run time and error, choose the mapping there and press Measure. What is measured but not within the error budget there has no cost here either.";
 
-/// About the largest a/b, beyond what the criterion says itself.
-pub const CORNER: &str = "No mapping that is smooth at a cube's corner is below √3 = 1.732: a right angle of the map is 120° there. The quadrilateralised cube is below because it is bent along the diagonals.";
+/// The bound at a cube's corner with what is said of it.
+pub struct Corner {
+    /// The value that nothing smooth there is below.
+    pub bound: f64,
+    /// It in a word.
+    pub name: String,
+    /// Why there is one.
+    pub reason: String,
+}
+
+/// That of a criterion, if it has one.
+pub fn corner(criterion: Criterion) -> Option<Corner> {
+    let bound = criterion.corner_bound()?;
+    let number = value_text(criterion, bound);
+    let (name, whole) = match criterion {
+        Criterion::ShapeMax => ("√3".to_owned(), format!("√3 = {number}")),
+        _ => (number.clone(), format!("{number}, where a/b is √3")),
+    };
+    let reason = format!(
+        "No mapping that is smooth at a cube's corner is below {whole}: a right angle of the map is 120° there. The quadrilateralised cube is below because it is bent along the diagonals."
+    );
+    Some(Corner {
+        bound,
+        name,
+        reason,
+    })
+}
 
 /// A mapping with what is known of it.
 #[derive(Clone, Copy, Debug)]
@@ -95,7 +120,7 @@ impl Entry<'_> {
     pub fn corner_text(&self) -> Option<&'static str> {
         /// As near as the search for the largest ends.
         const NEAR: f64 = 1e-6;
-        let above = self.value(Criterion::ShapeMax)? - CORNER_BOUND;
+        let above = self.value(Criterion::ShapeMax)? - Criterion::ShapeMax.corner_bound()?;
         if self.map.info().borders != Borders::CubeEdges || above > NEAR {
             return None;
         }

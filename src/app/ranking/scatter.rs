@@ -3,14 +3,13 @@
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
 
 use super::axis::Axis;
-use super::entry::{Entry, NO_COST};
+use super::entry::{Corner, Entry, NO_COST, corner};
 use super::panel::set;
 use crate::app::action::Action;
 use crate::app::laboratory::{free_place, look, paint_marker};
 use crate::app::lists::list_ui;
 use crate::app::model::Model;
 use crate::app::theme;
-use crate::lab::metrics::CORNER_BOUND;
 use crate::lab::ranking::{Criterion, front};
 use crate::lab::scatter::front_steps;
 
@@ -181,26 +180,37 @@ fn paint_axes(painter: &Painter, frame: Rect, across: &Axis, up: &Axis) {
     painter.add(turned.with_angle(-std::f32::consts::FRAC_PI_2));
 }
 
-/// The least a/b of what is smooth at a cube's corner, where the largest a/b is an axis; what the line and its words cover.
+/// The least of what is smooth at a cube's corner, where the largest a/b or error of an angle is an axis; what lines and words cover.
 fn paint_corner(painter: &Painter, frame: Rect, across: &Axis, up: &Axis) -> Vec<Rect> {
     let mut covered = Vec::new();
-    const TEXT: &str = "√3: no mapping that is smooth at a cube's corner is below";
     let font = FontId::proportional(LETTER);
     let stroke = Stroke::new(1.0, theme::TEXEL);
-    let is_shown =
-        |axis: &Axis| axis.criterion == Criterion::ShapeMax && axis.contains(CORNER_BOUND);
-    if is_shown(up) {
-        let y = frame.bottom() - frame.height() * up.share(CORNER_BOUND, MARGIN);
+    let bound = |axis: &Axis, room: f32| {
+        let corner = corner(axis.criterion).filter(|corner| axis.contains(corner.bound));
+        let Corner { bound, name, .. } = corner?;
+        let whole = format!("{name}: no mapping that is smooth at a cube's corner is below");
+        // The whole where there is room, so that nothing runs beyond the frame.
+        let words = |text: String| painter.layout_no_wrap(text, font.clone(), theme::TEXEL);
+        let whole = words(whole);
+        let galley = if whole.size().x < room - 8.0 {
+            whole
+        } else {
+            words(name)
+        };
+        Some((axis.share(bound, MARGIN), galley))
+    };
+    if let Some((share, galley)) = bound(up, frame.width()) {
+        let y = frame.bottom() - frame.height() * share;
         painter.hline(frame.x_range(), y, stroke);
         let at = pos2(frame.right() - 4.0, y + 1.0);
-        let words = painter.text(at, Align2::RIGHT_TOP, TEXT, font.clone(), theme::TEXEL);
+        let words = Align2::RIGHT_TOP.anchor_size(at, galley.size());
+        painter.galley(words.min, galley, theme::TEXEL);
         let line = Rect::from_x_y_ranges(frame.x_range(), y - 1.0..=y + 1.0);
         covered.extend([words, line]);
     }
-    if is_shown(across) {
-        let x = frame.left() + frame.width() * across.share(CORNER_BOUND, MARGIN);
+    if let Some((share, galley)) = bound(across, frame.height()) {
+        let x = frame.left() + frame.width() * share;
         painter.vline(x, frame.y_range(), stroke);
-        let galley = painter.layout_no_wrap(TEXT.to_owned(), font, theme::TEXEL);
         let at = pos2(x + 2.0 + galley.size().y, frame.top() + 4.0);
         let words = vec2(galley.size().y + 3.0, galley.size().x);
         covered.push(Rect::from_min_size(pos2(x, frame.top() + 4.0), words));

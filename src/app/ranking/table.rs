@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use egui::{Align2, Checkbox, Color32, FontId, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
 use egui_plot::MarkerShape;
 
-use super::entry::{CORNER, Entry, NO_COST, NONE, TO_COME};
+use super::entry::{Entry, NO_COST, NONE, TO_COME, corner};
 use super::panel::set;
 use crate::app::action::Action;
 use crate::app::laboratory::paint_marker;
@@ -14,6 +14,7 @@ use crate::app::state::{MOST_COMPARED, RankingColumn};
 use crate::app::theme;
 use crate::lab::metrics::UNBOUNDED;
 use crate::lab::ranking::{Criterion, compare};
+use crate::mapping::MappingId;
 
 /// Height of a line, and size of its letters.
 const LINE: f32 = 17.0;
@@ -50,10 +51,10 @@ fn about(column: RankingColumn) -> String {
         RankingColumn::Score => {
             "Place by area and shape as they are weighed above, and the score: 0 is perfect, ln 2 = 0.693 twice as bad as that; what is unbounded comes last.".to_owned()
         }
-        RankingColumn::By(Criterion::ShapeMax) => {
-            format!("{}\n{CORNER}", Criterion::ShapeMax.about())
-        }
-        RankingColumn::By(criterion) => criterion.about().to_owned(),
+        RankingColumn::By(criterion) => match corner(criterion) {
+            Some(corner) => format!("{}\n{}", criterion.about(), corner.reason),
+            None => criterion.about().to_owned(),
+        },
         RankingColumn::Claims => {
             "Equal-area: equal parts of the map are equal solid angles. Conformal: angles are kept. Continuous: both sides divide a seam alike.".to_owned()
         }
@@ -89,14 +90,16 @@ fn text(entry: &Entry<'_>, column: RankingColumn) -> String {
 /// In the order of a column, by what `entries` come in where that does not decide.
 fn sort(entries: &mut [Entry<'_>], column: RankingColumn, descending: bool) {
     let turned = |order: Ordering| if descending { order.reverse() } else { order };
-    entries.sort_by(|a, b| match column {
-        RankingColumn::Mapping => turned(a.map.info().name.cmp(b.map.info().name)),
+    match column {
+        RankingColumn::Mapping => {
+            entries.sort_by(|a, b| turned(a.map.info().name.cmp(b.map.info().name)));
+        }
         RankingColumn::Claims => {
             let claims = |entry: &Entry<'_>| {
                 let claims = entry.map.info().claims;
                 [!claims.equal_area, !claims.conformal, !claims.continuous]
             };
-            turned(claims(a).cmp(&claims(b)))
+            entries.sort_by(|a, b| turned(claims(a).cmp(&claims(b))));
         }
         RankingColumn::Score => {
             let place = |entry: &Entry<'_>| {
@@ -108,14 +111,22 @@ fn sort(entries: &mut [Entry<'_>], column: RankingColumn, descending: bool) {
                     f64::INFINITY
                 })
             };
-            compare(place(a), place(b), descending)
+            entries.sort_by(|a, b| compare(place(a), place(b), descending));
         }
         RankingColumn::By(criterion) => {
-            let rank =
-                |entry: &Entry<'_>| entry.value(criterion).map(|value| criterion.rank(value));
-            compare(rank(a), rank(b), descending)
+            let known = entries.iter().filter_map(|entry| {
+                let value = entry.value(criterion)?;
+                Some((entry.map, value))
+            });
+            let (maps, values): (Vec<MappingId>, Vec<f64>) = known.unzip();
+            let ranks = criterion.ranks(&values);
+            let rank = |entry: &Entry<'_>| {
+                let known = maps.iter().position(|map| *map == entry.map);
+                known.map(|k| ranks[k])
+            };
+            entries.sort_by(|a, b| compare(rank(a), rank(b), descending));
         }
-    });
+    }
 }
 
 /// The table, `height` high: a click on a head sorts, one on a name opens the mapping, a box chooses it to be compared.

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::local::{Local, Yardstick};
+use crate::imaging::Progress;
 use crate::mapping::{ChartPoint, Domain, MappingId};
 
 /// Steps of the lattice from which a search begins.
@@ -18,30 +19,33 @@ const NEAR: f64 = 1e-6;
 /// What is sought: the logarithm of something positive.
 pub type Value = fn(&Local) -> f64;
 
-/// The largest value of each of `values` over a mapping; infinite where it grows without bound towards a border.
+/// The largest value of each of `values` over a mapping; infinite where it grows without bound towards a border. `None` when cancelled, which is
+/// looked at after a few points.
 pub fn largest<const N: usize>(
     yardstick: &Yardstick,
     map: MappingId,
     values: [Value; N],
-) -> [f64; N] {
+    progress: &Progress,
+) -> Option<[f64; N]> {
     let within = |margin: f64| {
         let search = Search {
             yardstick,
             map,
             margin,
+            progress,
         };
         search.largest(&values)
     };
-    let [last_but_one, last] = [20, 30].map(|digits| within(2f64.powi(-digits)));
-    let at_border = within(0.0);
-    std::array::from_fn(|k| {
+    let [last_but_one, last] = [within(2f64.powi(-20))?, within(2f64.powi(-30))?];
+    let at_border = within(0.0)?;
+    Some(std::array::from_fn(|k| {
         if last[k] - last_but_one[k] > SETTLED {
             return f64::INFINITY;
         }
         // On the border itself a formula may divide by zero; where it does not, its number is the exact one.
         let is_limit = (at_border[k] - last[k]).abs() < NEAR;
         if is_limit { at_border[k] } else { last[k] }
-    })
+    }))
 }
 
 /// A search that keeps a margin from the border of every chart.
@@ -49,6 +53,7 @@ struct Search<'a> {
     yardstick: &'a Yardstick,
     map: MappingId,
     margin: f64,
+    progress: &'a Progress,
 }
 
 impl Search<'_> {
@@ -66,18 +71,20 @@ impl Search<'_> {
         self.yardstick.at(ChartPoint::new(chart, u, v))
     }
 
-    fn largest<const N: usize>(&self, values: &[Value; N]) -> [f64; N] {
+    fn largest<const N: usize>(&self, values: &[Value; N]) -> Option<[f64; N]> {
         let place = |k: u32| f64::from(k) / f64::from(LATTICE);
         let mut seen = Vec::new();
         for chart in 0..self.map.info().chart_count() {
-            for (i, j) in (0..=LATTICE).flat_map(|i| (0..=LATTICE).map(move |j| (i, j))) {
-                let at = [place(i), place(j)];
-                if let Some(local) = self.local(chart, at) {
-                    seen.push((chart, at, local));
+            for i in 0..=LATTICE {
+                if self.progress.is_cancelled() {
+                    return None;
                 }
+                let row = (0..=LATTICE).map(|j| [place(i), place(j)]);
+                seen.extend(row.filter_map(|at| Some((chart, at, self.local(chart, at)?))));
             }
         }
-        values.map(|value| {
+        let mut found = [f64::NEG_INFINITY; N];
+        for (found, value) in found.iter_mut().zip(values) {
             let mut starts: Vec<(f64, u32, [f64; 2])> = seen
                 .iter()
                 .map(|(chart, at, local)| (value(local), *chart, *at))
@@ -85,13 +92,15 @@ impl Search<'_> {
                 .collect();
             starts.sort_by(|a, b| b.0.total_cmp(&a.0));
             starts.truncate(STARTS);
-            let climbed = starts.into_iter().map(|start| self.climb(value, start));
-            climbed.fold(f64::NEG_INFINITY, f64::max)
-        })
+            for start in starts {
+                *found = found.max(self.climb(*value, start)?);
+            }
+        }
+        Some(found)
     }
 
     /// Uphill by steps in eight directions, halved where none leads up.
-    fn climb(&self, value: Value, (mut best, chart, mut at): (f64, u32, [f64; 2])) -> f64 {
+    fn climb(&self, value: Value, (mut best, chart, mut at): (f64, u32, [f64; 2])) -> Option<f64> {
         /// Steps as small as an ULP of the place.
         const LEAST: f64 = 1e-15;
         /// A mapping whose derivative is noise must not keep the search for ever.
@@ -100,6 +109,9 @@ impl Search<'_> {
         for _ in 0..MOST {
             if step < LEAST {
                 break;
+            }
+            if self.progress.is_cancelled() {
+                return None;
             }
             let around = [-1.0, 0.0, 1.0].into_iter();
             let around = around.flat_map(|x| [-1.0, 0.0, 1.0].map(|y| [x, y]));
@@ -113,6 +125,61 @@ impl Search<'_> {
                 None => step *= 0.5,
             }
         }
-        best
+        Some(best)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+    use std::rc::Rc;
+
+    use super::*;
+
+    thread_local! {
+        /// Calls of `counted`, and at which one it cancels what.
+        static CALLS: Cell<usize> = const { Cell::new(0) };
+        static CANCEL: Cell<Option<(usize, Rc<Progress>)>> = const { Cell::new(None) };
+    }
+
+    fn counted(local: &Local) -> f64 {
+        let calls = CALLS.get() + 1;
+        CALLS.set(calls);
+        let cancel = CANCEL.take().filter(|(at, progress)| {
+            if calls == *at {
+                progress.cancel();
+            }
+            calls < *at
+        });
+        CANCEL.set(cancel);
+        local.area.ln()
+    }
+
+    /// Values that are computed, and the result.
+    fn search(cancel_at: usize) -> (usize, Option<[f64; 1]>) {
+        let map = MappingId::Fisheye;
+        let progress = Rc::new(Progress::new());
+        CALLS.set(0);
+        CANCEL.set(Some((cancel_at, Rc::clone(&progress))));
+        let found = largest(&Yardstick::new(map), map, [counted], &progress);
+        (CALLS.get(), found)
+    }
+
+    #[test]
+    fn a_cancelled_search_ends_within_a_step() {
+        let (all, found) = search(usize::MAX);
+        assert!(found.is_some());
+        // The lattice's points are valued at once, the points around a climber's nine at a time.
+        let points =
+            (LATTICE as usize + 1).pow(2) * MappingId::Fisheye.info().chart_count() as usize;
+        for at in [1, points + 1, points + 100, all / 2, all - 100] {
+            let (calls, found) = search(at);
+            assert_eq!(found, None, "{at}");
+            assert!(calls <= at + points, "{at}: {calls}");
+            if at > points && at < all / 3 {
+                assert!(calls < at + 9, "{at}: {calls}");
+            }
+        }
+        assert!(all > 4 * points, "control: {all} of {points}");
     }
 }

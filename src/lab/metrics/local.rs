@@ -30,7 +30,7 @@ pub struct Local {
 }
 
 impl Local {
-    /// Largest angle by which a right angle can differ on the map, in radians.
+    /// Largest angle by which an angle can differ on the map, in radians.
     pub fn omega_rad(&self) -> f64 {
         omega_rad(self.anisotropy)
     }

@@ -42,8 +42,9 @@ pub struct Metrics {
     #[serde(serialize_with = "bounded")]
     pub anisotropy_max: f64,
     /// Mean of the largest error of an angle, degrees.
+    #[serde(serialize_with = "bounded")]
     pub omega_mean_deg: f64,
-    /// Largest error of an angle, degrees.
+    /// Largest error of an angle, degrees; 180 where a/b has no bound.
     pub omega_max_deg: f64,
     /// Longest extent of any texel over the side of the ideal one.
     #[serde(serialize_with = "bounded")]
@@ -105,11 +106,10 @@ pub fn measure(map: MappingId, progress: &Progress) -> Option<Metrics> {
             |l| l.diagonals[0].max(l.diagonals[1]).ln(),
             |l| -l.diagonals[0].min(l.diagonals[1]).ln(),
         ],
-    );
-    if progress.is_cancelled() {
-        return None;
-    }
-    let [area_square, anisotropy_mean, omega_mean_rad] = means(&yardstick, map);
+        progress,
+    )?;
+    let [area_square, anisotropy_mean, omega_mean_rad] = means(&yardstick, map, progress)?;
+    let solid_angle_sum_sr = map.solid_angle_sum_sr(SUM_ROWS, || !progress.is_cancelled())?;
     let worst_linear = linear.exp();
     let info = map.info();
     Some(Metrics {
@@ -125,15 +125,14 @@ pub fn measure(map: MappingId, progress: &Progress) -> Option<Metrics> {
         texel_budget: worst_linear * worst_linear,
         edge_ratio: (longest + shortest).exp(),
         diagonal_ratio: (long_diagonal + short_diagonal).exp(),
-        solid_angle_sum_sr: map.solid_angle_sum_sr(SUM_ROWS),
+        solid_angle_sum_sr,
         equal_area: info.claims.equal_area,
         conformal: info.claims.conformal,
     })
-    .filter(|_| !progress.is_cancelled())
 }
 
-/// Means over the charts of (D_A - 1)^2, a/b and omega in radians; infinite where the integral does not come to an end.
-fn means(yardstick: &Yardstick, map: MappingId) -> [f64; 3] {
+/// Means over the charts of (D_A - 1)^2, a/b and omega in radians; infinite where the integral does not come to an end. `None` when cancelled.
+fn means(yardstick: &Yardstick, map: MappingId, progress: &Progress) -> Option<[f64; 3]> {
     /// Twice as many nodes move an integral by this share at most, unless it has no limit: one that grows as a logarithm grows by
     /// several hundredths.
     const SETTLED: f64 = 2e-3;
@@ -142,6 +141,10 @@ fn means(yardstick: &Yardstick, map: MappingId) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for chart in 0..info.chart_count() {
             let found = integrate(info.domain, [[0.0, 1.0]; 2], rule, |u, v| {
+                // The rest of the points costs nothing any more.
+                if progress.is_cancelled() {
+                    return [f64::NAN; 3];
+                }
                 let local = yardstick.at(ChartPoint::new(chart, u, v));
                 local.map_or([f64::NAN; 3], |local| {
                     let off = 1.0 / local.area - 1.0;
@@ -155,14 +158,15 @@ fn means(yardstick: &Yardstick, map: MappingId) -> [f64; 3] {
         let area = f64::from(info.chart_count()) * yardstick.domain();
         sum.map(|sum| sum / area)
     });
-    std::array::from_fn(|k| {
+    let settled = std::array::from_fn(|k| {
         let moved = (fine[k] - coarse[k]).abs();
         if moved <= SETTLED * fine[k].abs().max(1.0) {
             fine[k]
         } else {
             f64::INFINITY
         }
-    })
+    });
+    (!progress.is_cancelled()).then_some(settled)
 }
 
 /// Nodes along each side of a smooth piece.

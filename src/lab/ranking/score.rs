@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Criterion, EQUAL, steps};
+use super::{Criterion, EQUAL, ranks};
 use crate::lab::metrics::Metrics;
 use crate::mapping::MappingId;
 
@@ -69,21 +69,26 @@ pub struct Placed {
 /// The mappings by their score at a weight of shape from 0 (area alone) to 1 (shape alone), the best first. Of those that are equal the one stands first that is
 /// better with both weighed alike, then the one that comes first in `measured`.
 pub fn order(measured: &[&Metrics], basis: Basis, weight: f64) -> Vec<Placed> {
-    let score = |metrics: &Metrics| basis.score(metrics, weight);
-    let key = |metrics: &Metrics| [score(metrics), basis.score(metrics, 0.5)].map(steps);
-    let mut sorted: Vec<&Metrics> = measured.to_vec();
+    let scores = |weight: f64| -> Vec<f64> {
+        let scores = measured.iter().map(|m| basis.score(m, weight));
+        scores.collect()
+    };
+    let (own, alike) = (scores(weight), scores(0.5));
+    let (ranks, ties) = (ranks(&own), ranks(&alike));
+    let mut sorted: Vec<usize> = (0..measured.len()).collect();
     sorted.sort_by(|a, b| {
-        let ([a, a_both], [b, b_both]) = (key(a), key(b));
-        a.total_cmp(&b).then(a_both.total_cmp(&b_both))
+        let by_score = ranks[*a].total_cmp(&ranks[*b]);
+        by_score.then(ties[*a].total_cmp(&ties[*b]))
     });
     let mut placed: Vec<Placed> = Vec::with_capacity(sorted.len());
-    for metrics in sorted {
-        let score = score(metrics);
-        let before = placed.last().filter(|p| steps(p.score) == steps(score));
+    let mut last = None;
+    for k in sorted {
+        let before = placed.last().filter(|_| last == Some(ranks[k]));
         let place = before.map_or(placed.len() + 1, |before| before.place);
+        last = Some(ranks[k]);
         placed.push(Placed {
-            map: metrics.mapping,
-            score,
+            map: measured[k].mapping,
+            score: own[k],
             place,
         });
     }
