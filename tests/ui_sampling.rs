@@ -165,15 +165,15 @@ fn a_list_lies_over_its_dialog_however_often_that_is_shown() {
         let dialog = Dialog::Picture(PictureDialog::default());
         run(&mut ui, Command::ShowDialog(dialog));
         settle(&mut ui);
+        let order = |ui: &Ui, at: egui::Rect| ui.ctx.layer_id_at(at.center()).unwrap().order;
+        let dialog = order(&ui, ui.get_by_label("with overlays").rect());
         ui.get_by_role_and_label(Role::ComboBox, "picture of")
             .click();
         settle(&mut ui);
         let entry = what.name();
         // Within one order what was pressed last would be on top.
-        let order = |at: egui::Rect| ui.ctx.layer_id_at(at.center()).unwrap().order;
-        let dialog = ui.get_by_label("with overlays").rect();
         let list = ui.get_by_role_and_label(Role::Button, &entry).rect();
-        assert!(order(list) > order(dialog), "{entry}");
+        assert!(order(&ui, list) > dialog, "{entry}");
         ui.get_by_role_and_label(Role::Button, &entry).click();
         settle(&mut ui);
         let list = ui.get_by_role_and_label(Role::ComboBox, "picture of");
