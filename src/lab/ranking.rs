@@ -177,7 +177,7 @@ impl Criterion {
         self.place(value) < UNBOUNDED_PLACE
     }
 
-    /// Of each value the rank among all of them, as [`ranks`] has it for their places; infinite without bound.
+    /// Of each value the rank among all of them, equal where their places are as good as equal; infinite without bound.
     pub fn ranks(self, values: &[f64]) -> Vec<f64> {
         let place = |value: &f64| {
             if self.is_bounded(*value) {
