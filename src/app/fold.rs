@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 
-pub use lines::{Line, letters, lines, project, seen};
+pub use lines::{Line, letters, project, seen};
 pub use panel::{fold_ui, surface_ui};
 pub use sheet::{Sheet, SheetWanted};
 pub use view::{Quad, Surface, is_covered};

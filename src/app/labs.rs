@@ -6,12 +6,14 @@ use super::budget::BudgetLab;
 use super::distortion::HeatMaps;
 use super::ellipses::EllipsesLab;
 use super::fold::FoldLab;
+use super::follower::Follower;
 use super::laboratory::BenchLab;
 use super::loss::LossLab;
 use super::model::JobLine;
 use super::ranking::RankingLab;
-use super::sampling::SamplingLab;
+use super::sampling::CutsWanted;
 use super::stability::StabilityLab;
+use crate::lab::sampling::Sampling;
 
 /// What the window asks of every laboratory, whatever it measures.
 pub trait Lab {
@@ -25,6 +27,25 @@ pub trait Lab {
     }
     /// Stops the job of that number, if it is its own.
     fn cancel(&mut self, id: u64);
+}
+
+/// What only follows a wish is a laboratory as it stands.
+impl<W, T> Lab for Follower<W, T>
+where
+    W: Clone + PartialEq + Send + 'static,
+    T: Send + 'static,
+{
+    fn poll(&mut self, _: &Context) {
+        Self::poll(self);
+    }
+
+    fn jobs(&self) -> Vec<JobLine> {
+        self.job().into_iter().collect()
+    }
+
+    fn cancel(&mut self, id: u64) {
+        Self::cancel(self, id);
+    }
 }
 
 /// All of them.
@@ -47,7 +68,7 @@ pub struct Labs {
     /// How every mapping distorts.
     pub ranking: RankingLab,
     /// Cuts through the horizon.
-    pub sampling: SamplingLab,
+    pub sampling: Follower<CutsWanted, Vec<Sampling>>,
 }
 
 impl Labs {

@@ -9,7 +9,7 @@ use super::map_panel::window_of;
 use super::panels::cells;
 use super::picture::{Destination, PictureRequest, What};
 use super::sampling::{CutsWanted, sheet};
-use super::state::{AppState, Overlays};
+use super::state::AppState;
 use crate::gpu::GREAT_CIRCLE_COLORS;
 use crate::imaging::{Environment, Progress, atomic::write_atomically};
 use crate::lab::drawing::{Colour, Drawing};
@@ -56,10 +56,7 @@ pub fn written(state: &AppState, request: &PictureRequest) -> Option<Result<(), 
         .extension()
         .is_some_and(|end| end.eq_ignore_ascii_case(SVG));
     is_svg.then(|| {
-        let mut state = state.clone().sanitized();
-        if !request.overlays {
-            state.overlays = Overlays::NONE;
-        }
+        let state = request.shown(state).sanitized();
         let art = drawing(&state, request.what, request.size).ok_or_else(|| {
             let what = request.what.name();
             format!("{what} cannot be written as lines: let the name end in .png")
@@ -252,6 +249,7 @@ fn clipped(points: &[[f64; 2]], rect: Rect) -> Vec<Vec<[f64; 2]>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::state::Overlays;
     use crate::lab::drawing::Shape;
 
     #[test]

@@ -205,10 +205,9 @@ fn on_map(map: MappingId, dirs: &[Vec3<f64>]) -> Vec<Vec<ChartPoint<f64>>> {
         }
     }
     let end = dirs.last().and_then(|dir| map.own_point(*dir));
-    pieces
-        .last_mut()
-        .into_iter()
-        .for_each(|piece| piece.extend(end));
+    if let Some(piece) = pieces.last_mut() {
+        piece.extend(end);
+    }
     pieces.retain(|piece| piece.len() > 1);
     pieces
 }

@@ -81,6 +81,21 @@ pub struct PictureRequest {
     pub to: Destination,
 }
 
+impl PictureRequest {
+    /// The state as the picture shows it.
+    pub fn shown(&self, state: &AppState) -> AppState {
+        let overlays = if self.overlays {
+            state.overlays
+        } else {
+            Overlays::NONE
+        };
+        AppState {
+            overlays,
+            ..state.clone()
+        }
+    }
+}
+
 /// Pixels of a picture, RGBA, row 0 at the top, opaque.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
@@ -214,11 +229,7 @@ fn draw_with(
             size[0], size[1]
         ));
     }
-    let mut state = state.clone();
-    if !request.overlays {
-        state.overlays = Overlays::NONE;
-    }
-    let mut screen = Offscreen::new(gpu, state, request.what, size)?;
+    let mut screen = Offscreen::new(gpu, request.shown(state), request.what, size)?;
     screen.show_complete(surroundings)?;
     if let Some(measured) = measured {
         screen.explorer.labs_mut().bench.show(measured);

@@ -1,12 +1,10 @@
 //! The pane with the cut through the horizon: how evenly two mappings part it into texels.
 
-use egui::{Align2, Color32, Context, FontId, Pos2, Sense, Slider, Ui, vec2};
+use egui::{Align2, Color32, FontId, Pos2, Sense, Slider, Ui, vec2};
 
 use super::action::Action;
-use super::follower::Follower;
-use super::labs::Lab;
 use super::lists::grouped_list_ui;
-use super::model::{JobLine, Model};
+use super::model::Model;
 use super::narrow::{picture_pane, slider_ui};
 use super::state::{AppState, SamplingState};
 use super::theme;
@@ -36,27 +34,6 @@ impl CutsWanted {
         let cut =
             |map: &MappingId| (!progress.is_cancelled()).then(|| Sampling::new(*map, self.quarter));
         self.maps.iter().map(cut).collect()
-    }
-}
-
-/// The cuts that were made last.
-#[derive(Default)]
-pub struct SamplingLab {
-    /// Made while the pane is seen.
-    pub cuts: Follower<CutsWanted, Vec<Sampling>>,
-}
-
-impl Lab for SamplingLab {
-    fn poll(&mut self, _: &Context) {
-        self.cuts.poll();
-    }
-
-    fn jobs(&self) -> Vec<JobLine> {
-        self.cuts.job().into_iter().collect()
-    }
-
-    fn cancel(&mut self, id: u64) {
-        self.cuts.cancel(id);
     }
 }
 
@@ -99,7 +76,7 @@ pub fn sheet_ui(ui: &mut Ui, model: &mut Model<'_>) {
     theme::paint_ground(&painter, rect);
     let size = [rect.width() as u32, rect.height() as u32];
     model.cuts_wanted = Some(CutsWanted::new(model.state));
-    if let Some((_, cuts)) = model.labs.sampling.cuts.shown() {
+    if let Some((_, cuts)) = model.labs.sampling.shown() {
         for shape in sheet(model.state, cuts, size).shapes() {
             paint(&painter, rect.min, shape);
         }

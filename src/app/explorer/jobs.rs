@@ -15,7 +15,6 @@ use crate::app::job::{Job, Outcome};
 use crate::app::line_art;
 use crate::app::model::{JobLine, Surroundings};
 use crate::app::object::{BodyKey, Jobs, News, job_line};
-use crate::app::panes;
 use crate::app::picture::{self, Destination, PictureRequest};
 use crate::app::reading::{Reading, Refusal, surroundings};
 use crate::app::state::AppState;
@@ -426,13 +425,10 @@ impl Explorer {
     /// Shows another scene, which can be taken back.
     pub(super) fn show_scene(&mut self, ctx: &Context, scene: AppState) {
         // With the panes as they lie, so that undo puts them back.
-        let before = AppState {
-            arrangement: Arrangement::of_tree(&self.tree),
-            ..self.state.clone()
-        };
+        self.state.arrangement = Arrangement::of_tree(&self.tree);
+        let before = self.state.clone();
         self.replace(ctx, scene.clone().sanitized());
         self.history.record(before, &Action::Load(Box::new(scene)));
-        self.tree = panes::tree_of(&self.state);
     }
 
     fn poll_errands(&mut self, ctx: &Context) {

@@ -165,11 +165,11 @@ impl Explorer {
     pub(super) fn cut_horizon(&mut self, ctx: &Context) {
         let wanted = self.cuts_wanted.take();
         if self.complete {
-            self.labs.sampling.cuts.complete(wanted, CutsWanted::make);
+            self.labs.sampling.complete(wanted, CutsWanted::make);
             return;
         }
         self.start(ctx, |labs, _, jobs| {
-            let cuts = &mut labs.sampling.cuts;
+            let cuts = &mut labs.sampling;
             cuts.follow(wanted, "texels of the horizon", jobs, CutsWanted::make)
         });
     }

@@ -1,8 +1,7 @@
 //! The lines on a folded map, as they are seen.
 
 use super::view::{LinePoint, Surface};
-use crate::app::map_lines::{Kind, MapLine, goes_on, map_lines};
-use crate::app::state::Overlays;
+use crate::app::map_lines::{Kind, MapLine, goes_on};
 use crate::mapping::cube_face::GREAT_CIRCLES;
 use crate::mapping::{ChartPoint, Unfolding};
 
@@ -15,11 +14,6 @@ pub struct Line {
     pub at: Vec<[f32; 2]>,
     /// It lies where the surface is seen from outside.
     pub is_outside: bool,
-}
-
-/// The lines that are switched on.
-pub fn lines(surface: &Surface, overlays: Overlays) -> Vec<Line> {
-    seen(surface, &map_lines(surface.map(), overlays))
 }
 
 /// Where each great circle has its letter: on the longest piece that is seen from outside, else of the longest.
@@ -107,12 +101,14 @@ fn cut(surface: &Surface, traced: &TracedLine, lines: &mut Vec<Line>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::map_lines::map_lines;
+    use crate::app::state::Overlays;
     use crate::mapping::MappingId;
     use crate::scene::Camera;
 
     fn of(map: MappingId, share: f32, overlays: Overlays) -> Vec<Line> {
         let surface = Surface::new(map, share, Camera::default(), 1.0);
-        lines(&surface, overlays)
+        seen(&surface, &map_lines(map, overlays))
     }
 
     #[test]
