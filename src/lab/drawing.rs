@@ -41,6 +41,14 @@ pub enum Shape {
     },
 }
 
+/// From one letter of the strokes to the next, over the letters' height; fonts have less, on the average.
+const ADVANCE: f64 = 0.8;
+
+/// Width of words of letter height `size` as strokes.
+pub fn width(words: &str, size: f64) -> f64 {
+    ADVANCE * size * words.chars().count() as f64
+}
+
 /// Shapes on white paper, the last on top.
 #[derive(Clone, Debug)]
 pub struct Drawing {
@@ -93,10 +101,7 @@ impl Drawing {
 
     /// The same with the middle of the words' upper edge at `at`, as nearly as their width is known: fonts differ.
     pub fn words_below(&mut self, text: &str, at: [f64; 2], size: f64, colour: Colour) {
-        /// Advance of a letter over the letters' height, of the strokes; fonts have less, on the average.
-        const ADVANCE: f64 = 0.8;
-        let width = ADVANCE * size * text.chars().count() as f64;
-        self.words(text, [at[0] - 0.5 * width, at[1]], size, colour);
+        self.words(text, [at[0] - 0.5 * width(text, size), at[1]], size, colour);
     }
 
     /// The drawing as an SVG file; words stay words.
@@ -183,7 +188,7 @@ impl Drawing {
                 } => {
                     // Letter by letter, so that few strokes are asked for each pixel.
                     for (k, letter) in text.chars().enumerate() {
-                        let left = [at[0] + 0.8 * size * k as f64, at[1]];
+                        let left = [at[0] + ADVANCE * size * k as f64, at[1]];
                         let strokes =
                             Strokes::new().text(letter.encode_utf8(&mut [0; 4]), left, *size);
                         let box_of = [left, [left[0] + size, left[1] + 1.3 * size]];

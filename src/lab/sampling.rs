@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::drawing::{Colour, Drawing};
+use super::drawing::{Colour, Drawing, width as words_width};
 use crate::imaging::resample::{chart_size, equal_rows};
 use crate::mapping::{Borders, MappingId};
 use crate::math::Vec3;
@@ -235,18 +235,16 @@ fn draw_cut(
     };
     let solid = |angle: f64| at(angle, reach(cut.map, on_horizon(angle)));
     let left = corner[0] + letter;
-    drawing.words(
-        cut.map.info().name,
-        [left, corner[1] + letter],
-        1.3 * letter,
-        INK,
-    );
-    drawing.words(
-        &cut.caption(),
-        [left, corner[1] + 3.3 * letter],
-        letter,
-        INK,
-    );
+    // As large as they may be, and within the cell.
+    let head = [
+        (cut.map.info().name.to_owned(), 1.0, 1.3 * letter),
+        (cut.caption(), 3.3, letter),
+    ];
+    for (words, line, size) in head {
+        let fits = (width - 2.0 * letter) / words_width(&words, 1.0);
+        let at = [left, corner[1] + line * letter];
+        drawing.words(&words, at, size.min(fits.max(1.0)), INK);
+    }
 
     let pen = 0.08 * letter;
     for [from, to] in cut.texels_rad() {
